@@ -34,13 +34,13 @@ pub(crate) fn is_carried(column: &Column) -> bool {
 impl AttributeSources<'_> {
     /// Computes the attribute columns of the next level:
     ///
-    /// - Vertices: [`Rule::Interpolate`] uses the masks of the positions. [`Rule::Copy`] keeps the values of
-    ///   old vertices, and new vertices have the value zero.
-    /// - Corners: if `sharpness` is given, [`Rule::Interpolate`] smooths the values separately in each region between
-    ///   seams, as defined by [`FaceVarying`]; otherwise it interpolates linearly within the old face. [`Rule::Copy`]
+    /// - Vertices: [`Rule::Interpolate`] averages old values with the weights of the positions (the masks).
+    ///   [`Rule::Copy`] keeps the values of old vertices, and new vertices have the value zero.
+    /// - Corners: [`Rule::Interpolate`] interpolates linearly within the old face. If `sharpness` is given, floats and
+    ///   vectors are smoothed instead, as [`FaceVarying`] defines: separately on each side of a seam. [`Rule::Copy`]
     ///   keeps the values of old corners, and new corners have the value zero.
-    /// - Edges: parts of an old edge copy its value, and other new edges have the value zero.
-    /// - Faces: parts of an old face copy its value.
+    /// - Edges: the parts of an old edge copy its value, and all other new edges have the value zero.
+    /// - Faces: the parts of an old face copy its value.
     ///
     /// Columns with [`Rule::Normal`] or [`Rule::Drop`] are dropped. If `sharpness` is given, the sharpness of edges
     /// and vertices decreases.
@@ -81,7 +81,8 @@ impl AttributeSources<'_> {
         let Some(old) = to_vec4s(&column.values) else {
             return Ok(column.values.blend(n, |i, add| self.masks.mask(i, add)));
         };
-        // All values are converted to 3D vectors, so that the code of the masks is compiled for one type only.
+        // Values are smoothed as 3D vectors, and a fourth component separately, so that the code of the masks is
+        // compiled for one type only.
         let smoothed = |part: fn(&DVec4) -> DVec3| {
             let old: Vec<DVec3> = old.iter().map(part).collect();
             self.masks.values(n, &old, meter)

@@ -102,8 +102,8 @@ impl<'a> DooSabin<'a> {
                 Source::Near(h)
             }
         } else if i < corners + ends {
-            // A boundary edge has one new point near each end, so the point near the target of a half-edge is also the
-            // point near the origin of its twin.
+            // A boundary edge has one new point near each end. So for a boundary half-edge, the point near its target
+            // is the point near the origin of its twin.
             Source::Near(HalfEdgeId::new(self.outer.nth(i - corners)).twin())
         } else {
             Source::Isolated(VertexId::new(self.isolated.nth(i - corners - ends)))
@@ -133,7 +133,7 @@ impl<'a> DooSabin<'a> {
         HalfEdgeId::new(2 * (self.first_join() + self.outer.below(h.index())))
     }
 
-    /// Returns the id of the first of the edges join(h).
+    /// Returns the lowest edge id of all half-edges join(h).
     fn first_join(&self) -> usize {
         4 * self.n_edges - self.doubled.len()
     }

@@ -9,7 +9,7 @@ use crate::size::TooLarge;
 /// Why a mesh could not be subdivided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SubdivisionError {
-    /// The scheme takes triangles only, and a face has more than three corners.
+    /// The scheme supports only triangles, but a face of the mesh has more than three corners.
     #[error("{} needs triangles, but {face} has {degree} corners", .scheme.name())]
     NotTriangle {
         /// The scheme.
@@ -32,7 +32,7 @@ pub enum SubdivisionError {
         /// mesh (without deleted elements).
         vertex: VertexId,
     },
-    /// The scheme can only subdivide a whole mesh.
+    /// The scheme can subdivide a whole mesh, but not a part of it.
     #[error("{} can only refine all faces, not a part of them", .0.name())]
     WholeMesh(Scheme),
     /// The list of faces to refine does not have one flag for each face of the mesh.
@@ -43,7 +43,7 @@ pub enum SubdivisionError {
         /// The number of flags that were given.
         flags: usize,
     },
-    /// For this scheme, the crate has no limit masks (the weights that give the limit positions).
+    /// The crate cannot compute limit positions for this scheme.
     #[error("the limit surface is not available for {}", .0.name())]
     NoLimit(Scheme),
     /// The result would have more elements than there are ids, or exceed the memory budget.

@@ -1,8 +1,8 @@
 //! Smooths corner values, such as texture coordinates, piece by piece between seams.
 //!
 //! A piece is a set of corners around a vertex that have the same value. The edges between pieces are seams. Inside a
-//! piece, values are smoothed as positions are. Along the border of a piece, values are smoothed or interpolated
-//! linearly. Smoothing works as on a boundary, and reads values of this piece only:
+//! piece, values are smoothed by the rules for positions. Along a seam, the values of each piece are smoothed or
+//! interpolated linearly. Smoothing along a seam uses the rule for boundaries, and reads only values of the same piece:
 //!
 //! ```text
 //!            \   |   /                     The value at v in the upper piece is x. If v is not a corner of this
@@ -12,14 +12,14 @@
 //!            /   |   \
 //! ```
 //!
-//! [`FaceVarying`] decides which vertices are corners of a piece, where the value of the piece does not change. The
-//! rules are those of OpenSubdiv's face-varying interpolation. In this crate, the rules are applied to each level
-//! separately. So one call that computes two levels gives the same result as two calls that compute one level each. The
-//! results can differ from those of OpenSubdiv in one case: two pieces meet at a vertex, and a semi-sharp edge (sharp
-//! on the first levels only) is inside one of them. As long as this edge is sharp, the value of the other piece can
-//! stay unchanged, too. OpenSubdiv decides on the first level whether the value stays unchanged, and keeps this
-//! decision. If the pieces, their seam and their vertex have different semi-sharp values, the results on later levels
-//! can differ from those of OpenSubdiv.
+//! [`FaceVarying`] decides at which vertices the value of a piece does not change. These vertices are called the
+//! corners of the piece. The rules are those of OpenSubdiv's face-varying interpolation. In this crate, the rules are
+//! applied to each level separately. So one call that computes two levels gives the same result as two calls that
+//! compute one level each. The results can differ from those of OpenSubdiv in one case: two pieces meet at a vertex,
+//! and a semi-sharp edge (sharp on the first levels only) is inside one of them. As long as this edge is sharp, the
+//! value of the other piece can stay unchanged, too. OpenSubdiv decides on the first level whether the value stays
+//! unchanged, and keeps this decision. If the pieces, their seam and their vertex have different semi-sharp values, the
+//! results on later levels can differ from those of OpenSubdiv.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -123,8 +123,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Returns the sharpness of the edge of `h` on this level, then the sharpness on the next level. The second value
-    /// is that of the part of the edge at the origin of `h`.
+    /// Returns the sharpness of the edge of `h` on this level, then the sharpness on the next level. The next level
+    /// divides the edge into two parts; the second value is the sharpness of the part at the origin of `h`.
     fn edge_sharpness(&self, h: HalfEdgeId) -> [f64; 2] {
         [self.sharpness.edge(h.edge()), self.sharpness.of_half(h)]
     }
@@ -143,7 +143,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Returns the new value in the middle of a half-edge, in the face of the half-edge.
+    /// Returns the value of a new corner: the corner in the face of `h`, at the middle of `h`.
     fn on(&self, h: HalfEdgeId) -> DVec4 {
         let e = h.edge();
         let sharp = if self.seams[e.index()] {
@@ -174,7 +174,7 @@ impl<'a> Field<'a> {
         ends * (0.5 * sharp) + (smooth_end + sides) * (1.0 - sharp)
     }
 
-    /// Returns the new value at the origin of a half-edge, in the face of the half-edge.
+    /// Returns the value of a new corner: the corner in the face of `h`, at the origin of `h`.
     fn at(&self, h: HalfEdgeId) -> DVec4 {
         let v = self.mesh.origin(h);
         let start = self.mesh.vertex_half_edge(v).expect("a vertex of a face");
@@ -188,7 +188,7 @@ impl<'a> Field<'a> {
         self.pieces(v, start).value(self, h)
     }
 
-    /// Whether the values at a boundary vertex without seams follow a different rule than positions.
+    /// Whether the rule for corner values differs from the rule for positions at a boundary vertex without seams.
     fn is_irregular_boundary(&self, v: VertexId, start: HalfEdgeId) -> bool {
         match self.rule {
             FaceVarying::None => false,
@@ -197,7 +197,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Returns the new value at a vertex with a single piece, smoothed as positions are.
+    /// Returns the new value at a vertex with a single piece, computed by the rules for positions.
     fn regular(&self, v: VertexId, start: HalfEdgeId, own: DVec4) -> DVec4 {
         let blend = self.sharpness.at_vertex(v, start);
         let by_rule = |rule: VertexRule<HalfEdgeId>| match rule {
@@ -354,7 +354,7 @@ impl VertexPieces {
         }
     }
 
-    /// Returns the sharpness of the vertex on this level and on the next.
+    /// Returns the sharpness of the vertex on this level and on the next level.
     fn sharpness(&self, field: &Field) -> [f64; 2] {
         let now = field.sharpness.vertex(self.vertex, self.half_edge);
         [now, decreased(now)]

@@ -1,9 +1,9 @@
 //! Faces with many corners. A new corner at the center of such a face, or at a Doo-Sabin point in it, depends on all
-//! corners of the face. If each new corner added up all old corners, the time would grow with the square of the number
-//! of corners. Instead, three sums over all corners are computed once. Every new corner is a weighted sum of these
-//! three sums and of one old corner.
+//! corners of the face. If the sum over all old corners were computed again for each new corner, the time would grow
+//! with the square of the number of corners. Instead, three sums over all corners are computed once. Every new corner
+//! is a weighted sum of these three sums and of one old corner.
 //!
-//! Write x(0), .., x(n - 1) for the corners of a face, and a for 2π/n:
+//! Let x(0), .., x(n - 1) be the values at the n corners of a face, and let a be 2π/n:
 //!
 //! ```text
 //!     m = Σ x(j) / n        c = Σ cos(ja) x(j) / n        s = Σ sin(ja) x(j) / n
@@ -13,7 +13,8 @@
 //! ```
 //!
 //! The second formula follows from the weights in `topology.rs` and cos((j - k)a) = cos(ja) cos(ka) + sin(ja) sin(ka).
-//! The weight of x(k) is written as 1 - 3/4, because integers and tags take the value with the largest weight.
+//! The weight of x(k) is written as 1 - 3/4 and not as 1/4, because integers and tags are not averaged: they take the
+//! value with the largest weight, which is then x(k).
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -62,8 +63,8 @@ impl LargeFaces {
         SUMS * self.faces.len()
     }
 
-    /// Calls `add` for each corner that sum `i` includes, with the half-edge that starts at the corner and with the
-    /// weight of the corner.
+    /// Calls `add` for each corner of the face to which sum `i` belongs. The arguments are the half-edge that starts at
+    /// the corner, and the weight of the corner in the sum.
     pub(crate) fn add_sum(&self, mesh: &Mesh, i: usize, mut add: impl FnMut(HalfEdgeId, f64)) {
         let f = self.faces[i / SUMS];
         let n = mesh.degree(f) as f64;
@@ -78,7 +79,7 @@ impl LargeFaces {
         }
     }
 
-    /// Returns the sum that is the value at the center of `f`; `None` if the face is not large.
+    /// Returns the index of the sum m of face `f`, which is the value at its center; `None` if the face is not large.
     pub(crate) fn center(&self, mesh: &Mesh, f: FaceId) -> Option<usize> {
         let (i, ..) = self.corners.get(&mesh.face_half_edge(f))?;
         Some(SUMS * i)

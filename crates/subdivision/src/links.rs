@@ -29,7 +29,8 @@ impl Arrays<'_> {
     }
 }
 
-/// What one element writes into the arrays: `N` half-edges, and the first half-edge of each of `K` faces or vertices.
+/// The array entries of one element: the data of `N` half-edges, and the first half-edge of each of `K` faces or
+/// vertices.
 pub(crate) struct Entries<const N: usize, const K: usize> {
     pub(crate) next: [HalfEdgeId; N],
     pub(crate) origin: [VertexId; N],
@@ -37,7 +38,7 @@ pub(crate) struct Entries<const N: usize, const K: usize> {
     pub(crate) first: [HalfEdgeId; K],
 }
 
-/// Writes the entries of all elements in parallel. The entries of consecutive elements are consecutive.
+/// Writes the array entries of all elements in parallel, in the order of the elements.
 pub(crate) fn write<const N: usize, const K: usize>(
     mut halves: Arrays,
     mut firsts: &mut [HalfEdgeId],
@@ -87,7 +88,7 @@ pub(crate) struct Link(
     pub(crate) FaceId,
 );
 
-/// Computes the elements of a new mesh one at a time.
+/// Computes the connectivity of a new mesh, separately for each edge, vertex and face.
 pub(crate) trait Links: Sync {
     /// Returns the number of vertices, the number of edges, and the number of faces.
     fn counts(&self) -> [usize; 3];

@@ -20,12 +20,12 @@ use crate::sharpness::{Sharpness, VertexRule};
 
 /// The masks of a scheme on one mesh.
 pub(crate) trait Masks: Sync {
-    /// Calls `add` with each old vertex and its weight in vertex `i` of the next level, in a fixed order. The weights
-    /// sum to 1. A vertex can be passed to `add` more than once.
+    /// Vertex `i` of the next level is a weighted mean of old vertices. Calls `add` with each of these old vertices and
+    /// its weight, in a fixed order. The weights sum to 1. A vertex can be passed to `add` more than once.
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64));
 
-    /// Computes the values at the `n` vertices of the next level. The values equal the weighted sums of
-    /// [`mask`](Self::mask) up to rounding.
+    /// Computes the values at the `n` vertices of the next level. Up to rounding, each value is the mean of `old` with
+    /// the weights of [`mask`](Self::mask).
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
         let mut new: Vec<DVec3> = mesh::zeroed(n);
         fill(&mut new, meter, |i| {
@@ -56,9 +56,9 @@ impl<M: Masks> AnyMasks for M {
     }
 }
 
-/// Calls `add` with the mask of an old vertex, that is, with old vertices and their weights. `smooth(weight, add)` does
-/// this for the smooth mask of the scheme, scaled by `weight`. The masks of creases and corners are the same for all
-/// schemes. An isolated vertex stays in place.
+/// Calls `add` with the old vertices that determine the new position of vertex `v`, and with their weights.
+/// `smooth(weight, add)` calls `add` with the smooth mask of the scheme, multiplied by `weight`. The masks of creases
+/// and corners are the same for all schemes. An isolated vertex stays in place.
 #[inline]
 fn at_vertex<A: FnMut(usize, f64)>(
     mesh: &Mesh,

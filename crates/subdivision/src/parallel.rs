@@ -29,8 +29,8 @@ pub(crate) fn fill<T: Send>(
     fill_counted(array, meter, 1, value)
 }
 
-/// Computes an array like [`fill`], but adds nothing to the meter. Use this function for arrays that the total
-/// of the meter does not include.
+/// Computes an array like [`fill`], but adds nothing to the meter. Use this function for arrays whose elements are not
+/// included in the total of the meter.
 pub(crate) fn fill_uncounted<T: Send>(
     array: &mut [T],
     meter: &Meter,
@@ -70,7 +70,7 @@ pub(crate) fn of_blocks<T: Send>(n: usize, task: &(dyn Fn(Range<usize>) -> T + S
     blocks.map(|block| task(block_of(block, n))).collect()
 }
 
-/// Whether `test` is true for any number below `n`.
+/// Whether `test` is true for at least one number below `n`.
 pub(crate) fn any(n: usize, test: impl Fn(usize) -> bool + Sync) -> bool {
     any_block(n, &|mut block| block.any(&test))
 }

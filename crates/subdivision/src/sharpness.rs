@@ -58,8 +58,8 @@ pub(crate) struct Blend<K> {
 }
 
 impl<K: Copy> VertexRule<K> {
-    /// Returns the rule of a vertex. `at` is the sharpness of the vertex, and `edges` has the edges around it with
-    /// their sharpness.
+    /// Returns the rule of a vertex. `at` is the sharpness of the vertex. `edges` has each edge at the vertex and its
+    /// sharpness.
     pub(crate) fn of(at: f64, edges: impl Iterator<Item = (K, f64)>) -> Self {
         if at > 0.0 {
             return Self::Corner;
@@ -75,7 +75,7 @@ impl<K: Copy> VertexRule<K> {
 
 impl<K: Copy> Blend<K> {
     /// Returns the blend of a vertex. `at` is the sharpness of the vertex on this level and on the next level. `edges`
-    /// has the edges around the vertex, each with its sharpness on these two levels.
+    /// has each edge at the vertex and its sharpness on these two levels.
     pub(crate) fn of(at: [f64; 2], edges: impl Iterator<Item = (K, [f64; 2])> + Clone) -> Self {
         let rule = |i: usize| VertexRule::of(at[i], edges.clone().map(|(k, s)| (k, s[i])));
         let now = rule(0);
@@ -95,7 +95,7 @@ impl<K: Copy> Blend<K> {
     }
 }
 
-/// The number of semi-sharp edges at a vertex, and the sum of their sharpness.
+/// The number of semi-sharp edges at a vertex, and the sum of their sharpness values.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct SemiSharp {
     sum: f64,
@@ -137,8 +137,8 @@ pub(crate) fn decreased(s: f64) -> f64 {
 }
 
 /// Returns the weight of this level's rule in the blend with the next level's rule. The weight is the mean sharpness of
-/// the elements whose sharpness falls to 0 on the next level, but at most 1. Each pair has the sharpness of an element
-/// on this level and on the next.
+/// the elements whose sharpness falls to 0 on the next level, but at most 1. Each pair in `pairs` has the sharpness of
+/// an element on this level and on the next level.
 pub(crate) fn fading_weight(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
     let (mut sum, mut n) = (0.0, 0_u32);
     for [now, next] in pairs {
@@ -190,8 +190,8 @@ impl<'a> Sharpness<'a> {
         }
     }
 
-    /// Returns the sharpness of a vertex. `h` is the half-edge of the vertex; for a boundary vertex, `h` is a
-    /// boundary half-edge.
+    /// Returns the sharpness of a vertex. `h` is the outgoing half-edge that the mesh stores for `v`. If `v` is on the
+    /// boundary, this is a boundary half-edge.
     #[inline]
     pub(crate) fn vertex(&self, v: VertexId, h: HalfEdgeId) -> f64 {
         if self.mesh.face(h).is_none() {
@@ -226,8 +226,8 @@ impl<'a> Sharpness<'a> {
         if stays { 1.0 } else { s }
     }
 
-    /// Returns how vertex `v` moves. `h` is the half-edge of the vertex; for a boundary vertex, `h` is a boundary
-    /// half-edge.
+    /// Returns how vertex `v` moves. `h` is the outgoing half-edge that the mesh stores for `v`. If `v` is on the
+    /// boundary, this is a boundary half-edge.
     #[inline]
     pub(crate) fn at_vertex(&self, v: VertexId, h: HalfEdgeId) -> Blend<HalfEdgeId> {
         if !self.is_plain() {
@@ -258,13 +258,15 @@ impl<'a> Sharpness<'a> {
         SemiSharp::of(self.creasing, edges.map(|h| self.edge(h.edge())))
     }
 
-    /// Returns the sharpness, on the next level, of the part of the edge of `h` that is at the origin of `h`.
+    /// The next level divides the edge of `h` into two parts. Returns the sharpness of the part at the origin of `h`,
+    /// as it shapes the surface.
     pub(crate) fn of_half(&self, h: HalfEdgeId) -> f64 {
         let semi_sharp = self.semi_sharp(self.mesh.origin(h));
         semi_sharp.half_of(self.edge(h.edge()))
     }
 
-    /// Returns the sharpness that the next level stores for the part of the edge of `h` that is at the origin of `h`.
+    /// The next level divides the edge of `h` into two parts. Returns the sharpness that is stored for the part at the
+    /// origin of `h`.
     pub(crate) fn next_of_half(&self, h: HalfEdgeId) -> f64 {
         if self.edges.is_none() {
             0.0

@@ -12,8 +12,8 @@ use crate::rules::{Scheme, Split};
 /// The largest number of elements of one kind: the highest id is 2^32 - 2.
 const MAX_ELEMENTS: u64 = u32::MAX as u64;
 
-/// A number of elements: an exact number, or a range if the number is not known yet. A result that is too large is
-/// replaced by the largest value.
+/// A number of elements: an exact number, or a range if the number is not known yet. The arithmetic saturates: a result
+/// that is too large becomes the largest value of the type.
 pub trait Count: Copy {
     /// Returns the sum of two counts.
     #[must_use]
@@ -114,7 +114,8 @@ impl Size {
 }
 
 impl<N: Count> Size<N> {
-    /// Returns the size after one level of a scheme. `level` is the index of the level, counted from 0.
+    /// Returns the size of the mesh after one more level of a scheme. `level` is the index of this level, counted from
+    /// 0.
     #[must_use]
     pub fn after(self, scheme: Scheme, level: u32) -> Self {
         let Self {
@@ -226,17 +227,18 @@ impl<N: Count> Size<N> {
     }
 }
 
-/// A subdivided mesh would be too large.
+/// The error for a subdivided mesh that would be too large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("level {levels} would have {faces} faces and {}", self.excess())]
 pub struct TooLarge {
-    /// The last of the checked levels. Level 0 is the mesh before subdivision, and level n is the mesh after n levels.
+    /// The highest level that was checked. Level 0 is the mesh before subdivision, and level n is the mesh after n
+    /// levels.
     pub levels: u32,
     /// The number of faces at this level.
     pub faces: u64,
     /// The number of half-edges at this level.
     pub half_edges: u64,
-    /// The number of bytes of the mesh; `None` if it has more elements than there are ids.
+    /// The number of bytes of the mesh at this level; `None` if the mesh would have more elements than there are ids.
     pub bytes: Option<u64>,
     /// The memory budget in bytes.
     pub budget: u64,

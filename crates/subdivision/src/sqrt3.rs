@@ -260,7 +260,7 @@ impl<'a> Sqrt3<'a> {
         ]
     }
 
-    /// Returns the half-edge that has a face, on the `r`-th edge that is cut.
+    /// Returns the half-edge of the `r`-th cut edge that has a face.
     fn of_rank(&self, r: usize) -> HalfEdgeId {
         let cut = self.cut.as_ref().expect("only odd levels have ranks");
         HalfEdgeId::new(cut.nth(r)).twin()

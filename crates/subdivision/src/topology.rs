@@ -1,4 +1,4 @@
-//! How the elements of the next level correspond to the elements of the old mesh.
+//! Relates the elements of the next level to the elements of the old mesh.
 
 use std::f64::consts::TAU;
 
@@ -34,7 +34,8 @@ pub(crate) trait Topology: Sync {
         self.edge(i).map(|_| HalfEdgeId::new(i))
     }
 
-    /// Whether an old vertex and its attributes follow the masks of the scheme. Otherwise they stay unchanged.
+    /// Whether the masks of the scheme apply to an old vertex and its attributes. If not, the vertex and its attributes
+    /// stay unchanged.
     fn smooths_vertex(&self, _: usize) -> bool {
         true
     }

@@ -100,7 +100,8 @@ impl Star {
     fn smooth_tangents(&self) -> [DVec3; 2] {
         let n = self.spokes.len() as f64;
         let theta = TAU / n;
-        // The ratio of the weight of the opposite corner of a quad to the weight of a spoke.
+        // The weight of the opposite corner of a quad is `scale` times the sum of the weights of the two spokes of the
+        // quad.
         let scale = if self.loop_weights.is_some() {
             0.0
         } else {
@@ -119,13 +120,13 @@ impl Star {
         tangents
     }
 
-    /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. The weights of the
-    /// second tangent are a left eigenvector of the subdivision matrix. With θ = π/k, the weight of inner spoke i is
-    /// sin(iθ), and the weight of the opposite corner between spokes i and i + 1 is m (sin(iθ) + sin((i+1)θ)). The
-    /// factor m depends on the scheme and on θ. The weights at the ends of the crease and at the center follow from the
-    /// other weights. (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the sector has
-    /// six or more triangles, the surface has no tangent plane in the sector. In this case, the returned plane contains
-    /// the tangent of the crease.
+    /// Returns two tangents: one along the crease, and one that points across the crease into the k faces of the
+    /// sector. The weights of the second tangent are a left eigenvector of the subdivision matrix. With θ = π/k, the
+    /// weight of inner spoke i is sin(iθ), and the weight of the opposite corner between spokes i and i + 1 is m
+    /// (sin(iθ) + sin((i+1)θ)). The factor m depends on the scheme and on θ. The weights at the ends of the crease and
+    /// at the center follow from the other weights. (The literature gives the eigenvector for k ≤ 3 and for other
+    /// crease rules.) If the sector has six or more triangles, the surface has no tangent plane in the sector. In this
+    /// case, the returned plane contains the tangent of the crease.
     fn crease_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let k = sector.n_faces;
         let [first, last] = [0, k].map(|i| self.spoke(sector, i));
@@ -160,9 +161,9 @@ impl Star {
     }
 
     /// Returns the directions of the first and the last spoke of a sector at a corner. These directions are tangents of
-    /// the crease curves. The two directions are swapped if the corner is concave. If they do not span a plane, or if
-    /// the sector goes all the way around (a cone), returns two vectors that span another plane: its normal is the mean
-    /// of the face normals.
+    /// the crease curves. The two directions are swapped if the corner is concave. If the two directions do not span a
+    /// plane, or if the sector goes all the way around the vertex (a cone), returns two vectors that are perpendicular
+    /// to the mean of the face normals.
     fn corner_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let arm = |i: usize| self.spoke(sector, i) - self.center;
         let faces = 0..sector.n_faces;

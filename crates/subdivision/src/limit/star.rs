@@ -5,15 +5,16 @@ use mesh::{DVec3, HalfEdgeId, Mesh, VertexId};
 use crate::rules::{Creasing, LoopWeights, Rules, Scheme};
 use crate::sharpness::{Blend, INFINITE, SemiSharp, Sharpness, VertexRule, decreased};
 
-/// A vertex, its neighbors, and for Catmull-Clark the opposite corners of the quads around it. One level of
-/// subdivision maps a star to a smaller star with the same connectivity.
+/// A vertex and its neighbors. For Catmull-Clark, also the corner of each surrounding quad that is opposite to the
+/// vertex. One level of subdivision maps a star to a smaller star with the same connectivity.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Star {
     pub(crate) center: DVec3,
     /// The positions of the neighbors, in counter-clockwise order. At a boundary vertex, the first and the last
     /// neighbor are the two neighbors along the boundary.
     pub(crate) spokes: Vec<DVec3>,
-    /// For Catmull-Clark, the positions of the opposite corners: corner i is in the quad between spokes i and i + 1.
+    /// For Catmull-Clark, the positions of the quad corners opposite to the vertex. Corner i is in the quad between
+    /// spokes i and i + 1.
     pub(crate) opposite: Vec<DVec3>,
     /// Whether the vertex is inside the mesh. Around an inner vertex, a face also lies between the last spoke and the
     /// first spoke.
@@ -30,9 +31,9 @@ pub(crate) struct Star {
 }
 
 impl Star {
-    /// Replaces this star by the star of vertex `v`. `start` is the half-edge of the vertex; for a boundary vertex,
-    /// `start` is a boundary half-edge. With Catmull-Clark, if a face around the vertex is not a quad, reads the star
-    /// of the next level, which has the same limit.
+    /// Replaces this star by the star of vertex `v`. `start` is the outgoing half-edge that the mesh stores for `v`. If
+    /// `v` is on the boundary, this is a boundary half-edge. With Catmull-Clark, if a face around the vertex is not a
+    /// quad, reads the star of the next level, which has the same limit.
     pub(crate) fn read(
         &mut self,
         mesh: &Mesh,
@@ -103,7 +104,7 @@ impl Star {
     }
 
     /// Replaces this star by the star of the next level. (If an edge of the star has a sharpness below 1, Chaikin's
-    /// rule can also need the sharpness of the edges at the far end of that edge. The star does not have these edges;
+    /// rule can also need the sharpness of the edges at the far end of that edge. These edges are not in the star, so
     /// they are assumed to be as sharp as the edges at the center.)
     pub(crate) fn refine(&mut self) {
         self.face_points.clear();
@@ -117,8 +118,8 @@ impl Star {
         self.shrink();
     }
 
-    /// Replaces this star by the star of the next level. Before the call, `face_points` must contain the face points of
-    /// the next level.
+    /// Replaces this star by the star of the next level. With Catmull-Clark, `face_points` must already contain the
+    /// centers of the faces around the vertex.
     fn shrink(&mut self) {
         let semi_sharp = SemiSharp::of(self.creasing, self.spoke_sharpness.iter().copied());
         let center = self.next_center(semi_sharp);

@@ -33,7 +33,8 @@ fn affine_texture_coordinates_stay_affine_on_a_flat_sheet() {
     let new = once(&mesh);
     let uvs = new.get(UV).unwrap();
     let inside = |h: HalfEdgeId| new.face(h).is_some();
-    // Subdivision rounds off the four corners of the sheet.
+    // Subdivision moves the four corner vertices of the sheet, so their texture coordinates no longer match their
+    // positions.
     let rounded = |v: VertexId| mesh.has_vertex(v) && is_corner(&mesh, v);
     let mut n = 0;
     for h in new
@@ -68,7 +69,7 @@ fn corner_values_stay_within_their_own_triangle() {
             let [x, y, z] = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0];
             let parts = [0, 1, 2, 3].map(|k| around(&new, FaceId::new(4 * f.index() + k), new_uvs));
             assert_eq!(parts[..3], [[a, x, z], [b, y, x], [c, z, y]], "{name} {f}");
-            // The first corner of the middle triangle is z.
+            // Of the three edge midpoints x, y and z, the middle triangle starts at z.
             assert_eq!(parts[3], [z, x, y], "{name} {f}");
         }
         for h in new.half_edges().filter(|&h| new.face(h).is_none()) {
@@ -104,7 +105,7 @@ fn copied_values_are_inherited_by_the_parts_only() {
     }
     for (e, &chosen) in tag(Domain::Edge).iter().enumerate() {
         assert_eq!(chosen, e < 2 * mesh.n_edges() && (e / 2) % 3 == 0, "e{e}");
-        // Sharpness is infinite from 10 on; below 10 it decreases by 1.
+        // A sharpness of 10 or more is infinite and becomes 10. A sharpness below 10 decreases by 1.
         let crease = match (e / 2) as f64 {
             _ if e >= 2 * mesh.n_edges() => 0.0,
             s if s >= 10.0 => 10.0,

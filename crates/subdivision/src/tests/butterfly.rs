@@ -12,7 +12,8 @@ fn once(mesh: &Mesh) -> Mesh {
     level(Scheme::Butterfly, mesh)
 }
 
-/// Returns the edges of a sheet, without the boundary edges at its corners, where the boundary curve turns.
+/// Returns the edges of a sheet, without the boundary edges at the four corners of the sheet. At the corners, the
+/// boundary curve turns.
 fn away_from_corners(mesh: &Mesh) -> Vec<EdgeId> {
     let turns = |e: EdgeId| {
         mesh.is_boundary_edge(e) && mesh.edge_vertices(e).iter().any(|&v| is_corner(mesh, v))
@@ -48,7 +49,7 @@ fn cubic_functions_over_a_regular_sheet_are_reproduced_inside() {
     let new = once(&old);
     let inner = |v: VertexId| !old.is_boundary_vertex(v);
     let is_inside = |&e: &EdgeId| {
-        // None of the eight vertices of the mask is missing.
+        // Inside the sheet, none of the eight vertices of the regular mask lies beyond the boundary.
         let ends = old.edge_vertices(e);
         ends.iter()
             .all(|&v| inner(v) && old.vertex_neighbors(v).all(inner))

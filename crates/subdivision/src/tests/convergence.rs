@@ -11,7 +11,7 @@ use crate::{LoopWeights, Rules, Scheme, limit, limit_distance, subdivide};
 
 const LOOP: Scheme = Scheme::Loop(LoopWeights::Warren);
 
-/// Returns the largest distance to the limit for each level, from level 0 on.
+/// Returns the largest distance between a vertex and its limit position, for each level from 0 to `levels`.
 fn distances(mut mesh: Mesh, rules: Rules, levels: u32) -> Vec<f64> {
     let mut distances_by_level = Vec::new();
     for _ in 0..=levels {
@@ -23,9 +23,9 @@ fn distances(mut mesh: Mesh, rules: Rules, levels: u32) -> Vec<f64> {
 
 #[test]
 fn meshes_converge_at_the_rate_of_their_valences() {
-    // Around a vertex, each level scales the surface by the subdominant eigenvalue of the valence. The distance from
-    // nearby points to their limits scales by the same factor. If all valences are regular, the distance is instead
-    // quadratic in the edge length, so that each level divides it by 4.
+    // Around a vertex, each level scales the surface by a factor that depends on the valence of the vertex, the
+    // subdominant eigenvalue. The distance from nearby points to their limits scales by the same factor. If all
+    // valences are regular, the distance is instead quadratic in the edge length, so that each level divides it by 4.
     let loop_rate = |n: f64| 0.375 + 0.25 * libm::cos(TAU / n);
     let cases = [
         (LOOP, shapes::icosahedron(), 8, loop_rate(5.0)),

@@ -40,7 +40,7 @@ fn a_cube_gets_a_face_for_each_face_edge_and_vertex() {
     };
     assert_eq!(degrees(0..18), [4; 18]);
     assert_eq!(degrees(18..26), [3; 8]);
-    // The face made from an old face is half as wide as the old face.
+    // The new face that replaces an old face is half as wide as the old face, so its area is a quarter of the old area.
     let f = FaceId::new(0);
     let area = |m: &Mesh| m.face_area(f);
     assert!((area(&new) - area(&old) / 4.0).abs() < 1e-15);
@@ -101,7 +101,8 @@ fn polygons_keep_their_topology() {
 
 #[test]
 fn a_regular_grid_becomes_the_biquadratic_b_spline_of_its_vertices() {
-    // Chaikin's rule halves the knot intervals in both directions.
+    // One level of subdivision equals Chaikin's rule along the rows, then along the columns. Chaikin's rule halves the
+    // knot intervals of a quadratic B-spline.
     let (columns, rows) = (5, 4);
     let mut old = shapes::grid(columns, rows);
     let height = |i: u32, j: u32| f64::from((7 * i + 5 * j * j + i * j) % 11);
@@ -124,7 +125,7 @@ fn a_regular_grid_becomes_the_biquadratic_b_spline_of_its_vertices() {
         let line: Vec<DVec3> = lines.iter().map(|line| line[i]).collect();
         expected.extend(chaikin(&line));
     }
-    // Only inner vertices belong to the spline; boundary vertices lie on the boundary curve.
+    // Only inner vertices are compared, because boundary vertices follow the rule for boundaries.
     let inside: Vec<DVec3> = (0..new.n_vertices())
         .map(VertexId::new)
         .filter(|&v| !new.is_boundary_vertex(v))
@@ -213,7 +214,7 @@ fn parts_inherit_the_values_of_faces_edges_and_vertices() {
             let expected = if e < old.n_half_edges() { e / 2 + 1 } else { 0 };
             assert_eq!(value, i32::try_from(expected).unwrap(), "{name} e{e}");
         }
-        // Only isolated vertices are kept.
+        // The column keeps only the values of isolated vertices, because all other old vertices are replaced.
         let kept: Vec<i32> = ints(Domain::Vertex, "vertices");
         let kept: Vec<i32> = kept.into_iter().filter(|&i| i != 0).collect();
         let isolated = old.vertices().filter(|&v| old.valence(v) == 0);

@@ -106,7 +106,7 @@ fn mean_normal(mesh: &Mesh, v: VertexId) -> DVec3 {
 
 #[test]
 fn normals_of_fine_faces_converge_to_limit_normals() {
-    // These meshes are smooth everywhere except at the boundary.
+    // The limit surfaces of these meshes are smooth everywhere except at the boundary.
     for (name, mesh) in fixtures::all() {
         if name == "pillow" {
             continue; // The pillow is flat: its limit has two sides and no normal.
@@ -163,7 +163,8 @@ fn is_corner(mesh: &Mesh, rules: Rules, v: VertexId) -> bool {
 
 #[test]
 fn the_two_sides_of_a_crease_have_different_normals() {
-    // If all edges of a cube are sharp, its limit is the cube, and the corners have the normals of their faces.
+    // If all edges of a cube are sharp, the limit surface is the cube itself, and each corner has the normal of its
+    // face.
     let mut cube = shapes::cube();
     cube.set(CREASE, vec![10.0; 12]);
     let limit = limit_of(&cube, Rules::of(Scheme::CatmullClark));
@@ -181,7 +182,8 @@ fn the_two_sides_of_a_crease_have_different_normals() {
 
 #[test]
 fn a_regular_loop_patch_has_the_value_of_the_box_spline() {
-    // The quartic box spline has the value 1/2 at its center and 1/12 at the six points around it.
+    // One vertex is raised to the height 1. The limit surface is then a quartic box spline, with the height 1/2 at this
+    // vertex and 1/12 at its six neighbors.
     let mut mesh = fixtures::sheet(6, 6);
     let inner = mesh
         .vertices()

@@ -31,7 +31,8 @@ fn some(mesh: &Mesh, one_in: u32, seed: u32) -> Vec<bool> {
     (0..mesh.n_faces()).map(is_chosen).collect()
 }
 
-/// Returns meshes with chosen faces: few, many, or only the first.
+/// Returns meshes, each with flags of its chosen faces: about a half, a third or a seventh of the faces, or only the
+/// first face.
 fn cases() -> Vec<(&'static str, Mesh, Vec<bool>)> {
     let mut cases = Vec::new();
     for (name, mesh) in fixtures::all() {
@@ -47,7 +48,7 @@ fn cases() -> Vec<(&'static str, Mesh, Vec<bool>)> {
 /// Adds attributes of vertices, corners, edges and faces to a mesh, with values that differ between elements.
 fn with_attributes(mut mesh: Mesh) -> Mesh {
     let uvs = mesh.half_edges().map(|h| match mesh.face(h) {
-        // Some faces have separate texture coordinates.
+        // Every fourth face has texture coordinates that differ from those of its neighbors, so its edges are seams.
         Some(f) if f.index() % 4 == 3 => DVec2::new(h.index() as f64, 10.0),
         Some(_) => mesh.position(mesh.origin(h)).truncate(),
         None => DVec2::ZERO,
@@ -168,7 +169,7 @@ fn midpoints_keep_the_shape() {
             "{name}"
         );
     }
-    // Every triangle lies inside its old triangle, so a flat sheet is covered exactly once.
+    // Every new triangle lies inside its old triangle, so the new triangles cover a flat sheet exactly once.
     let flat = sheet(4, 3);
     let new = refined(&flat, &some(&flat, 5, 4), MIDPOINT, 4);
     assert!(new.faces().all(|f| new.area_vector(f).z > 0.0));
@@ -212,7 +213,7 @@ fn the_cotangent_of_the_smallest_angle_is_at_most_three_times_the_old_one() {
 #[test]
 fn nothing_moves_outside_of_the_chosen_faces() {
     for (name, mesh, faces) in cases() {
-        // Outside of the chosen faces, every vertex has the position that midpoint subdivision gives.
+        // Vertices that are not only in chosen faces have the same positions after Loop and after midpoint subdivision.
         let smooth = refined(&mesh, &faces, LOOP, 3);
         let linear = refined(&mesh, &faces, MIDPOINT, 3);
         assert_eq!(smooth.connectivity(), linear.connectivity(), "{name}");
@@ -236,7 +237,7 @@ fn with_faces_numbered(mut mesh: Mesh) -> Mesh {
 
 #[test]
 fn far_inside_the_chosen_faces_the_surface_equals_subdivision() {
-    // Compares the middle of a large sheet with bumps, away from the border of the chosen faces.
+    // Refines a disk in the middle of a large sheet with bumps, and compares the vertices near the center of the disk.
     let mut mesh = sheet(12, 12);
     for p in mesh.positions_mut() {
         p.z = libm::sin(3.0 * p.x) * libm::cos(2.0 * p.y);
@@ -245,7 +246,8 @@ fn far_inside_the_chosen_faces_the_surface_equals_subdivision() {
     let faces: Vec<bool> = mesh.faces().map(|f| far(f) < 4.5).collect();
     let local = refined(&mesh, &faces, LOOP, 2);
     let whole = subdivide(&mesh, LOOP, 2, &NoProgress).unwrap();
-    // Old vertices keep their ids. The border does not affect vertices that are two or more rings away from it.
+    // Old vertices keep their ids. The border of the chosen faces does not affect vertices that are two or more rings
+    // away from it.
     let mut n = 0;
     for v in mesh.vertices().filter(|&v| mesh.position(v).length() < 2.0) {
         assert!(local.position(v).distance(whole.position(v)) < 1e-14, "{v}");
@@ -257,8 +259,8 @@ fn far_inside_the_chosen_faces_the_surface_equals_subdivision() {
 
 #[test]
 fn neighbors_differ_by_one_level_at_most() {
-    // The level of a triangle follows from its area. A green triangle has half the area of an ordinary one, so it
-    // counts as half a level more.
+    // The level of a triangle follows from its area. A green triangle has half the area of an ordinary triangle of the
+    // same level, so its computed level is higher by one half.
     let mesh = sheet(8, 8);
     let first: Vec<bool> = (0..mesh.n_faces()).map(|f| f == 60).collect();
     let new = refined(&mesh, &first, MIDPOINT, 5);
@@ -269,7 +271,8 @@ fn neighbors_differ_by_one_level_at_most() {
             assert!(step < 1.01, "{e} {step}");
         }
     }
-    // So the result has far fewer triangles than a full refinement, which makes 4^5 triangles of each old triangle.
+    // The levels decrease quickly away from the first triangle. Therefore the whole result has fewer triangles than
+    // four old triangles would give if all their parts were refined (4^5 each).
     assert!(new.n_faces() < 4 * 1024, "{}", new.n_faces());
 }
 

@@ -1,8 +1,9 @@
 //! Corner values and their subdivision, as in OpenSubdiv's face-varying data.
 //!
-//! Corners at one vertex share one value if their coordinates are equal. The rule for a value is decided on each
-//! level, from the sharpness on that level. OpenSubdiv decides only once which of two values depends on the
-//! other; the results differ only if sharpness ends on one side of a vertex earlier than on the other side.
+//! If several corners at a vertex have equal texture coordinates, they share one value. The rule for a value is decided
+//! on each level, from the sharpness on that level. OpenSubdiv decides only once which of two values depends on the
+//! other. The results differ only if the sharpness on one side of a vertex falls to 0 on an earlier level than the
+//! sharpness on the other side.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,15 +18,17 @@ use crate::split::{self, Place};
 /// How a value changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// The value moves as the position of its vertex does.
+    /// The value is smoothed with the weights of the position of its vertex.
     Regular,
     /// The value does not change.
     Corner,
-    /// The value moves along the border of its faces.
+    /// The value is smoothed along the border of the faces that share it.
     Crease,
-    /// The value does not change while an edge or the vertex is semi-sharp, then moves.
+    /// As long as the vertex, or an edge between the faces that share the value, is semi-sharp, the value does not
+    /// change. On later levels, it is smoothed along the border of these faces.
     Sharp,
-    /// The value does not change while the other value at the vertex does not change.
+    /// The vertex has two values. This value does not change as long as an edge between the faces of the other value is
+    /// semi-sharp.
     Dependent,
 }
 
@@ -41,7 +44,7 @@ pub(crate) struct Charts {
 }
 
 impl Charts {
-    /// Creates corner values from the coordinates at each corner of each face.
+    /// Creates corner values from the texture coordinates of each corner of each face.
     pub(crate) fn new(faces: &[Vec<usize>], numbers: &[Vec<DVec2>]) -> Self {
         let mut index_of: BTreeMap<(usize, [u64; 2]), usize> = BTreeMap::new();
         let mut values = Vec::new();
@@ -73,31 +76,31 @@ impl Charts {
         charts
     }
 
-    /// Returns the coordinates at each corner of each face.
+    /// Returns the texture coordinates of each corner of each face.
     pub(crate) fn numbers(&self) -> Vec<Vec<DVec2>> {
         let numbers = |face: &Vec<usize>| face.iter().map(|&x| self.values[x]).collect();
         self.corners.iter().map(numbers).collect()
     }
 
-    /// Returns the value `by` corners after a corner.
+    /// Returns the index of the value at corner `i + by` of face `f`.
     fn at(&self, (f, i): (usize, usize), by: usize) -> usize {
         let face = &self.corners[f];
         face[(i + by) % face.len()]
     }
 
-    /// Returns the value at the previous corner.
+    /// Returns the index of the value at the corner before corner `i` of face `f`.
     fn before(&self, (f, i): (usize, usize)) -> usize {
         let face = &self.corners[f];
         face[behind(i, face.len())]
     }
 
-    /// Returns the mean of the values of a face.
+    /// Returns the mean of the values at the corners of a face.
     fn center(&self, f: usize) -> DVec2 {
         let face = &self.corners[f];
         face.iter().map(|&x| self.values[x]).sum::<DVec2>() / face.len() as f64
     }
 
-    /// Returns the faces around `v` that have the given value.
+    /// Returns the faces around `v` whose corner at `v` has the value with the given index.
     fn span(&self, v: usize, value: usize, adjacency: &Adjacency) -> Span {
         let fan = adjacency.fan(v);
         let n = fan.len();
@@ -145,7 +148,7 @@ struct Span {
     size: usize,
     /// Whether the faces are not consecutive, or a seam runs between them.
     is_torn: bool,
-    /// The other ends of the edges that separate two of the faces.
+    /// For each edge between two of the faces, its end that is not the vertex.
     inner: Vec<usize>,
     /// The corners of the first and the last face, counter-clockwise.
     ends: [(usize, usize); 2],
@@ -177,7 +180,7 @@ enum When {
     Next,
 }
 
-/// Returns the values at `v`, in the order of their indices.
+/// Returns the indices of the values at `v`, in ascending order.
 fn values_at(charts: &Charts, v: usize, adjacency: &Adjacency) -> Vec<usize> {
     let values: BTreeSet<usize> = adjacency.corners[v]
         .iter()
@@ -186,7 +189,7 @@ fn values_at(charts: &Charts, v: usize, adjacency: &Adjacency) -> Vec<usize> {
     values.into_iter().collect()
 }
 
-/// Decides the states of the values at `v`.
+/// Decides how each of the values at `v` changes.
 fn decide(
     charts: &Charts,
     v: usize,
@@ -271,7 +274,8 @@ pub(crate) fn refine(
         }
     }
 
-    // Adds a value for each edge, or for each side of a seam, then a value for each center.
+    // Adds one value for each edge, or two if the edge is a seam: one for each side. Then adds a value for the center
+    // of each face.
     let mut of_sides: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (&e, sides) in &adjacency.sides {
         let is_seam = charts.seams.contains(&e);
@@ -311,7 +315,7 @@ fn is_linear(rules: Rules) -> bool {
     rules.face_varying == FaceVarying::All || matches!(rules.scheme, Scheme::Midpoint(_))
 }
 
-/// Returns the new value on an edge, on the given side.
+/// Returns the value of the new corners in the middle of an edge, in the face of `side`.
 fn of_edge(
     charts: &Charts,
     e: Edge,
@@ -342,7 +346,7 @@ struct Vertex<'a> {
 }
 
 impl Vertex<'_> {
-    /// Returns each value index with its new value.
+    /// Returns the index and the new value of each value at the vertex.
     fn refined(&self) -> Vec<(usize, DVec2)> {
         let Self {
             charts,
@@ -360,7 +364,8 @@ impl Vertex<'_> {
         let number = |k: usize| match (states[k], next[k]) {
             (State::Regular, _) => self.regular(values[k]),
             (_, State::Crease) => {
-                // A dependent value uses the weight that the rule of the other value has.
+                // If a value depends on the other value at the vertex, it is blended with the weight of the other
+                // value.
                 let source = if states[k] == State::Dependent {
                     1 - k
                 } else {
@@ -379,13 +384,14 @@ impl Vertex<'_> {
         (0..values.len()).map(|k| (values[k], number(k))).collect()
     }
 
-    /// Returns the weight of the corner rule, computed from the inner edges of the faces that share a value.
+    /// Returns the weight of the old value in the blend of the old value and the smoothed value. The weight is computed
+    /// from the sharpness of the edges between the faces that share the value.
     fn fraction(&self, value: usize) -> f64 {
         let span = self.charts.span(self.v, value, self.adjacency);
         self.sharpness.fraction(self.v, &span.inner)
     }
 
-    /// Returns the new value of a value that moves along the border of its faces.
+    /// Smooths a value along the border of the faces that share it, and returns the result.
     fn crease(&self, value: usize) -> DVec2 {
         let charts = self.charts;
         let [first, last] = charts.span(self.v, value, self.adjacency).ends;
@@ -393,7 +399,7 @@ impl Vertex<'_> {
         0.75 * charts.values[value] + 0.125 * ends
     }
 
-    /// Returns the new value at a corner where the rule of positions applies.
+    /// Smooths a value with the weights of the position of its vertex, and returns the result.
     fn regular(&self, value: usize) -> DVec2 {
         let Self {
             charts,

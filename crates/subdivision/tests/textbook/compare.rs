@@ -136,7 +136,8 @@ fn sharpness_difference(
     None
 }
 
-/// Describes the first difference between positions and colors, which were equal before subdivision.
+/// Describes the first vertex whose color differs from its position. Before subdivision, colors and positions were
+/// equal.
 fn color_difference(mesh: &Mesh) -> Option<String> {
     let Some(colors) = mesh.get(COLOR) else {
         return Some("the color column is missing".to_owned());

@@ -24,7 +24,8 @@ impl VertexMask {
         }
     }
 
-    /// The mask of a vertex on a crease with two neighbors: a point of the cubic B-spline.
+    /// The mask of a vertex on a crease: the weights of cubic B-spline subdivision, for the vertex and its two
+    /// neighbors on the crease.
     fn crease(ends: &[usize]) -> Self {
         let neighbors = ends.iter().map(|&w| (w, 1.0 / 8.0)).collect();
         Self {
@@ -34,7 +35,7 @@ impl VertexMask {
         }
     }
 
-    /// Adds a multiple of a different mask.
+    /// Adds the weights of `other`, multiplied by `t`.
     fn add(&mut self, t: f64, other: &Self) {
         self.own += t * other.own;
         for (&w, weight) in &other.neighbors {
@@ -46,8 +47,8 @@ impl VertexMask {
     }
 }
 
-/// The mask of the new vertex on an edge: the weight of each end, and of the point on each side, which is the
-/// center of the face or its third corner.
+/// The mask of the new vertex on an edge: the weight of each end of the edge, and the weight of one point of each face
+/// beside the edge. For Catmull-Clark, this point is the center of the face; for Loop, it is the third corner.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeMask {
     pub(crate) end: f64,

@@ -1,4 +1,4 @@
-//! The sharpness of edges and vertices on one level and the next.
+//! Computes the sharpness of edges and vertices on one level and on the next level.
 
 use std::collections::BTreeMap;
 
@@ -36,13 +36,14 @@ fn decreased(s: f64) -> f64 {
     }
 }
 
-/// The effective sharpness, with a sharp boundary, on one level and on the next.
+/// The sharpness that the rules use, on one level and on the next level. Boundary edges are infinitely sharp.
 #[derive(Debug)]
 pub(crate) struct Sharpness {
     creasing: Creasing,
     /// The sharpness of each edge.
     edges: BTreeMap<Edge, f64>,
-    /// The sharpness on the next level of the two halves of each edge: at its first and at its second vertex.
+    /// For each edge, the sharpness that its two halves have on the next level: first the half at the first vertex,
+    /// then the half at the second vertex.
     halves: BTreeMap<Edge, [f64; 2]>,
     /// The sharpness of each vertex.
     vertices: Vec<f64>,
@@ -167,8 +168,9 @@ impl Sharpness {
             .collect()
     }
 
-    /// Returns the weight of the old rule of a vertex whose rule changes. This weight is the mean sharpness, at
-    /// most 1, of the elements that become smooth. The elements are the vertex and its edges to `neighbors`.
+    /// If the rule of a vertex changes on the next level, the two rules are blended. Returns the weight of the current
+    /// rule. This weight is the mean sharpness, at most 1, of the elements that become smooth. The elements are the
+    /// vertex and its edges to `neighbors`.
     pub(crate) fn fraction(&self, v: usize, neighbors: &[usize]) -> f64 {
         let mut ending = Vec::new();
         if self.vertices[v] > 0.0 && self.children[v] <= 0.0 {

@@ -11,11 +11,11 @@ fn attributes_follow_their_elements() {
     for (name, mesh, faces) in cases() {
         let mesh = with_attributes(mesh);
         let new = refined(&mesh, &faces, LOOP, 2);
-        // The colors are copies of the positions.
+        // Before refinement, colors equal positions. They must still be equal after it.
         for (color, p) in new.get(COLOR).unwrap().iter().zip(new.positions()) {
             assert_eq!(color.truncate(), *p, "{name}");
         }
-        // The parts of a face cover the face and are in order.
+        // The parts of each old face have the same total area as the old face, and come in the order of the old faces.
         let linear = refined(&mesh, &faces, MIDPOINT, 2);
         let material = linear.get(MATERIAL).unwrap();
         assert!(material.is_sorted(), "{name}");
@@ -62,7 +62,8 @@ fn creases_keep_their_length_and_decrease_only_between_chosen_faces() {
         CREASE,
         (0..mesh.n_edges()).map(|e| 1.0 + e as f64).collect(),
     );
-    // Each edge has a different sharpness. Together, the parts with that sharpness are as long as the edge.
+    // Each edge has a different sharpness. The parts that have the sharpness of an edge must together be as long as
+    // this edge.
     let faces: Vec<bool> = (0..mesh.n_faces()).map(|f| f < 2).collect();
     let new = refined(&mesh, &faces, MIDPOINT, 3);
     let crease = new.get(CREASE).unwrap();
@@ -72,7 +73,8 @@ fn creases_keep_their_length_and_decrease_only_between_chosen_faces() {
         let length: f64 = parts.map(|part| new.length(part.half_edge())).sum();
         assert!((length - mesh.length(e.half_edge())).abs() < 1e-13, "{e}");
     }
-    // The sharpness of edges between two chosen faces decreases to 0; the sharpness of other edges is kept.
+    // After two levels, the sharpness of the edge between the two chosen faces has decreased from 2 to 0. All other
+    // edges keep their sharpness.
     mesh.set(CREASE, vec![2.0; mesh.n_edges()]);
     let new = refined(&mesh, &faces, LOOP, 2);
     let crease = new.get(CREASE).unwrap();

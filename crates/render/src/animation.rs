@@ -87,7 +87,7 @@ pub fn to_gif(
             height,
             delay: timing.delay.div_ceil(10),
             // If the images have transparent pixels, each image is cleared before the next one is shown. Otherwise, the
-            // old image would stay visible through the transparent pixels.
+            // previous image would stay visible where the next image is transparent.
             dispose: if palette.transparent().is_some() {
                 gif::DisposalMethod::Background
             } else {

@@ -1,7 +1,7 @@
 //! Alpha compositing in integers, so that the result is the same on every processor.
 
-/// Returns a color composited over `under`. Both colors have straight alpha: their channels are not multiplied by
-/// alpha.
+/// Returns the color that results if the first color is drawn over the color `under`. Both colors have straight alpha:
+/// their channels are not multiplied by alpha.
 pub(crate) fn over([r, g, b, a]: [u8; 4], under: [u8; 4]) -> [u8; 4] {
     blended([r, g, b].map(|c| u32::from(c) * u32::from(a)), a, under)
 }

@@ -92,10 +92,10 @@ impl Camera {
         self
     }
 
-    /// Returns the few points that determine the view in a picture of this size.
+    /// Returns a small subset of `points` that gives the same view as all points, in a picture of this size.
     ///
-    /// The [`View`] of several scenes can be computed from the extreme points of each scene. The view of
-    /// [`Self::LookAt`] depends on points only if its upward axis is [`Up::Auto`].
+    /// To compute a common [`View`] of several scenes, it is enough to know the extreme points of each scene. The view
+    /// of [`Self::LookAt`] depends on points only if its upward axis is [`Up::Auto`].
     ///
     /// # Errors
     ///
@@ -171,7 +171,7 @@ pub enum Side {
     /// From the front, but turned by 30 degrees towards the side where x is large, and raised by 22 degrees.
     #[default]
     ThreeQuarter,
-    /// From the direction that the two angles give.
+    /// From the direction with these two angles.
     Angles {
         /// The angle from the front towards the right, in degrees.
         azimuth: f64,
@@ -222,10 +222,10 @@ const DEFAULT_ANGLE: f64 = 25.0;
 const ORTHOGRAPHIC_ANGLE: f64 = 30.0;
 
 impl Up {
-    /// Replaces `Auto` by the upward axis of a scene with these points.
+    /// If this is `Auto`, returns the upward axis of a scene with these points. Otherwise returns `self`.
     fn resolved(self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
         /// A scene stands on a plane if the distance of its lowest point from the plane is at most this fraction of the
-        /// size of the scene.
+        /// size of the scene, and its highest point is farther away.
         const TOLERANCE: f64 = 1e-3;
         if self != Self::Auto {
             return self;
@@ -264,7 +264,7 @@ impl Side {
             Self::Right => [90.0, 0.0],
             Self::Top => [0.0, 90.0],
             Self::Bottom => [0.0, -90.0],
-            // The elevation is the arc tangent of 1 / √2.
+            // The elevation of the isometric view is the arc tangent of 1 / √2.
             Self::Isometric => [45.0, 35.264_389_682_754_654],
             Self::ThreeQuarter => [30.0, 22.0],
             Self::Angles { azimuth, elevation } => [azimuth, elevation],
@@ -292,7 +292,7 @@ pub struct View {
     axes: [DVec3; 3],
     /// With perspective, the position of the camera; otherwise a point that is shown in the middle of the picture.
     eye: DVec3,
-    /// The number of pixels per scene unit. With perspective, the number of pixels per scene unit at distance 1.
+    /// The number of pixels per scene unit. With perspective, this number is valid at distance 1 from the camera.
     scale: f64,
     is_perspective: bool,
     /// The distance of the near plane from the camera. Points nearer to the camera are not visible. Without
@@ -396,11 +396,11 @@ impl View {
         DVec3::new(p.dot(x), p.dot(y), -p.dot(z))
     }
 
-    /// Returns a number that is at least 0 if the point `v`, in [camera coordinates](Self::camera_space), is on the
-    /// visible side of a clipping plane. The number is linear in `v`.
+    /// Returns a number that tells on which side of a clipping plane the point `v` lies, in [camera
+    /// coordinates](Self::camera_space). The number is at least 0 on the visible side, and it is linear in `v`.
     ///
     /// Plane 0 is the near plane. Planes 1 to 4 are to the left, to the right, above and below. In the picture, each of
-    /// these planes is a line at a distance of `far` pixels from the upper left corner.
+    /// these four planes is a line at a distance of `far` pixels from the upper left corner.
     pub(crate) fn clip_distance(&self, plane: usize, far: f64, v: DVec3) -> f64 {
         let distance = if self.is_perspective { v.z } else { 1.0 };
         let (x, y) = (self.scale * v.x, -self.scale * v.y);

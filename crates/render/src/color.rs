@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 #[serde(try_from = "String", into = "String")]
 pub struct Color(pub [u8; 4]);
 
-/// The named colors. Most color-blind people can distinguish the colors from `orange` to `pink`: Okabe and Ito, "Color
-/// Universal Design", 2008.
+/// The named colors. Most color-blind people can distinguish the seven colors from `orange` to `pink` in this list.
+/// These colors are from Okabe and Ito, "Color Universal Design", 2008.
 pub const NAMES: [(&str, [u8; 3]); 11] = [
     ("black", [0, 0, 0]),
     ("white", [255, 255, 255]),
@@ -120,8 +120,9 @@ pub fn to_linear(value: u8) -> f32 {
 
 /// Returns the sRGB value of linear light (IEC 61966-2-1, 1999). The light is clamped to the range from 0 to 1.
 pub fn to_srgb(light: f32) -> u8 {
-    /// The number of equal steps into which the table divides the range from 0 to 1. This number of steps is enough:
-    /// even where sRGB values rise most steeply, about 20 consecutive entries of the table have the same sRGB value.
+    /// The number of equal steps into which the table divides the range from 0 to 1. With this number of steps,
+    /// rounding to a step hardly ever changes the sRGB value: even where sRGB values rise most steeply, about 20
+    /// consecutive entries of the table have the same sRGB value.
     const STEPS: usize = 1 << 16;
     static TABLE: LazyLock<Vec<u8>> = LazyLock::new(|| {
         let value = |i: usize| match i as f64 / STEPS as f64 {

@@ -70,7 +70,8 @@ const CLASSES: [[u8; 3]; 8] = [
 ];
 
 impl ColorMap {
-    /// Returns the sRGB color of `t`, which is clamped to the range from 0 to 1.
+    /// Returns the sRGB color at position `t` of the map. `t` is clamped to the range from 0 (first color) to 1 (last
+    /// color).
     pub fn srgb(self, t: f64) -> [u8; 3] {
         let stops: &[[u8; 3]] = match self {
             Self::Viridis => &VIRIDIS,
@@ -95,8 +96,8 @@ impl ColorMap {
     }
 
     /// Returns the linear red, green and blue of a number. `range` gives the numbers at the two ends of the map. NaN is
-    /// gray. If the second end is not greater than the first, all numbers have the middle color.
-    /// [`Classes`](Self::Classes) ignores `range` and rounds the number down.
+    /// gray. If the second number of `range` is not greater than the first, all numbers have the middle color of the
+    /// map. [`Classes`](Self::Classes) ignores `range` and rounds the number down.
     pub fn linear(self, value: f64, [low, high]: [f64; 2]) -> [f32; 3] {
         if value.is_nan() {
             return [0.3; 3];

@@ -161,7 +161,7 @@ fn unreadable(file: usize, why: &dyn std::fmt::Display) -> PictureError {
     PictureError::Unreadable { file, why }
 }
 
-/// Returns a light gray for a color. The lighter or more transparent the color, the lighter is the gray.
+/// Converts a color to a light gray. Lighter and more transparent colors give a lighter gray.
 fn faint([r, g, b, alpha]: [u8; 4]) -> [u8; 4] {
     let [r, g, b, alpha] = [r, g, b, alpha].map(u32::from);
     let dark = alpha * (255 - (r + g + b) / 3) / 255;

@@ -31,12 +31,12 @@ pub struct Part<'a> {
     /// For each triangle, the indices of its three corners in the lists with one value for each corner, such as
     /// [`Channel::Corner`]. Empty if the part has no lists with values of corners.
     pub corners: Vec<[u32; 3]>,
-    /// The face that each triangle belongs to. The faces are in ascending order. The list is empty if each triangle is
-    /// a face.
+    /// For each triangle, the index of the face that it belongs to, in ascending order. The list is empty if each
+    /// triangle is a face of its own.
     pub faces: Vec<u32>,
     /// The number of faces.
     pub n_faces: u32,
-    /// Normals, of any length. If a normal is zero, the normal of the triangle is used instead.
+    /// Normals for lighting, of any length. Where a normal is zero, the normal of the triangle is used instead.
     pub normals: Channel<'a>,
     /// Linear red, green and blue of the front, from 0 to 1. The color of the front is multiplied by the color of the
     /// material.
@@ -107,8 +107,9 @@ pub struct Line {
     pub faces: [u32; 2],
     /// The opacity of the line where a surface hides it, from 0 to 1. A hidden point is drawn as a ring.
     pub hidden: f32,
-    /// The distance to similar lines, such as other edges of a mesh, in scene units. Where such lines would cover the
-    /// surface, they are drawn thinner. The distance is infinite for a line without similar lines.
+    /// The approximate distance to neighboring lines of the same kind, such as other edges of a mesh, in scene units.
+    /// Lines are drawn thinner where they would otherwise cover the surface between them. The distance is infinite for
+    /// a line without neighbors.
     pub spacing: f64,
 }
 
@@ -159,7 +160,7 @@ impl Drawing<'_> {
         self.parts.iter().map(|p| p.triangles.len()).sum()
     }
 
-    /// Calls `each` with every point of every part, and with both ends of every line.
+    /// Calls `each` with every point of every part, and with the two ends of every line.
     pub fn each_point(&self, each: &mut dyn FnMut(DVec3)) {
         for part in &self.parts {
             part.points.iter().for_each(|&p| each(p));

@@ -9,9 +9,9 @@
 //!                                        camera --View::new--^
 //! ```
 //!
-//! [`picture`] runs all of these stages except the last one, `to_png`. [`build()`] converts a scene to a [`Drawing`] of
-//! triangles, lines and points. [`render`] finds the triangle that is visible at each of 16 samples per pixel, and
-//! computes colors in linear light.
+//! [`picture`] runs the stages `build`, `View::new` and `render` of this diagram, but not `to_png`. [`build()`]
+//! converts a scene to a [`Drawing`] of triangles, lines and points. [`render`] finds the triangle that is visible at
+//! each of 16 samples per pixel, and computes colors in linear light.
 //!
 //! [`figure`] draws in the plane: constructions of curves, legends and labels. [`animation`] encodes a sequence of
 //! images.

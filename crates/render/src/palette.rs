@@ -90,7 +90,8 @@ fn distinct_colors(frames: &[Image], limit: usize) -> Option<Vec<[u8; 3]>> {
     let mut colors = BTreeSet::new();
     let mut last = None;
     for &[r, g, b, a] in frames.iter().flat_map(|f| &f.pixels) {
-        // Neighboring pixels often have the same color, so a color that equals the last one is skipped.
+        // Neighboring pixels often have the same color. To save time, a pixel is skipped if it has the color of the
+        // previous opaque pixel.
         if a < OPAQUE_ALPHA || last == Some([r, g, b]) {
             continue;
         }
@@ -105,8 +106,8 @@ fn distinct_colors(frames: &[Image], limit: usize) -> Option<Vec<[u8; 3]>> {
 /// Quantizes the colors of the images. The most frequent color, usually the background, stays exact.
 fn quantized_colors(frames: &[Image], limit: usize) -> Vec<[u8; 3]> {
     let pixels: usize = frames.iter().map(|f| f.pixels.len()).sum();
-    // The step is odd. If both the step and the width of an image were even, the samples could be in only a few columns
-    // of the image.
+    // The step between samples is odd, because an even step in an image of even width could take all samples from a few
+    // columns.
     let step = (pixels / SAMPLES) | 1;
     let opaque = frames
         .iter()

@@ -64,7 +64,8 @@ pub enum Alpha {
 /// A tolerance for rounding errors in the comparison of alpha with a cutoff.
 const TOLERANCE: f32 = 1e-6;
 
-/// The minimum weight of a color, so that fully transparent pixels have a color too.
+/// The minimum weight of a color in a weighted mean. The weight is not 0, so that the mean of fully transparent pixels
+/// is defined.
 const MIN_WEIGHT: f32 = 1.0 / 1024.0;
 
 impl Alpha {
@@ -86,7 +87,7 @@ struct Level {
     pixels: Vec<[u8; 4]>,
 }
 
-/// The part of a texture that one pixel of the picture shows.
+/// The position and the mipmap levels at which a texture is read for one pixel of the picture.
 struct Footprint {
     /// The position in the image. The image reaches from 0 to 1 in both axes.
     position: DVec2,
@@ -219,10 +220,9 @@ impl Texture {
     /// differences of texture coordinates: from this sample to the next sample on the right, and from this sample to
     /// the next sample below.
     ///
-    /// With [`Alpha::Cut`], the interpolated alpha of the first level is compared with the cutoff. In the other mipmap
-    /// levels, the alpha of each pixel of the image was compared with the cutoff first, and the results of the
-    /// comparisons are averaged. Therefore fine structures such as leaves keep their density when they are seen from
-    /// far away.
+    /// With [`Alpha::Cut`], the interpolated alpha of the first level is compared with the cutoff. For all other mipmap
+    /// levels, the alpha of each pixel of the image was compared with the cutoff first, and the results were averaged.
+    /// Therefore fine structures such as leaves do not become thinner or denser when they are seen from far away.
     pub(crate) fn coverage(&self, uv: DVec2, steps: [DVec2; 2]) -> f32 {
         let footprint = self.footprint(uv, steps);
         let [coverage] = footprint.interpolate(|level| {
@@ -232,8 +232,8 @@ impl Texture {
         coverage
     }
 
-    /// Returns the footprint of a pixel of the picture. The footprint is between the two mipmap levels whose pixels are
-    /// closest in size to the pixel of the picture (Williams, "Pyramidal Parametrics", 1983).
+    /// Returns the footprint of a pixel of the picture. Values are interpolated between the two mipmap levels whose
+    /// pixels are closest in size to the pixel of the picture (Williams, "Pyramidal Parametrics", 1983).
     fn footprint(&self, uv: DVec2, steps: [DVec2; 2]) -> Footprint {
         let [width, height] = self.size().map(f64::from);
         let size = DVec2::new(width, height);

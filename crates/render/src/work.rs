@@ -13,7 +13,8 @@ pub(crate) fn map_indices<T: Send>(n: usize, f: impl Fn(usize) -> T + Send + Syn
     indices.map(f).collect()
 }
 
-/// Work that several threads share and that can be canceled. Only one thread at a time calls the listener.
+/// Counts the progress of work that several threads share, and cancels the work on request. Only one thread at a time
+/// calls the listener.
 pub(crate) struct Work<'a> {
     progress: &'a dyn Progress,
     stage: &'static str,

@@ -38,7 +38,7 @@ pub(crate) struct Entries<const N: usize, const K: usize> {
     pub(crate) first: [HalfEdgeId; K],
 }
 
-/// Writes the array entries of all elements in parallel, in the order of the elements.
+/// Computes the array entries of all elements in parallel. The arrays contain the entries in the order of the elements.
 pub(crate) fn write<const N: usize, const K: usize>(
     mut halves: Arrays,
     mut firsts: &mut [HalfEdgeId],

@@ -22,8 +22,8 @@ const SEGMENTS: u32 = 200;
 const SINGLE_POINT: f64 = 3.0;
 
 impl Builder<'_, '_> {
-    /// Adds Bezier patches. If the style has a wireframe, also adds a grid on each patch. If the style has control
-    /// nets, also adds the control nets of the patches.
+    /// Adds Bezier patches. If the style draws wireframes, also adds a grid on each patch. If the style draws control
+    /// nets, also adds the control net of each patch.
     pub(super) fn patches(&mut self, patches: &[Patch], color: Color) -> Result<(), PictureError> {
         let surface = bezier::tessellate(patches, CELLS, Faces::Quads)
             .map_err(|e| PictureError::Style(format!("the patches cannot be drawn: {e}")))?;
@@ -86,7 +86,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Adds a curve. If the style has control polygons, also adds the control polygon of the curve.
+    /// Adds a curve. If the style draws control nets, also adds the control polygon of the curve.
     pub(super) fn curve(&mut self, curve: &Curve<DVec2>, color: Color) {
         let points: Vec<DVec3> = curve.sample(SEGMENTS).map(|p| p.extend(0.0)).collect();
         let color = self.line_color(color);
@@ -95,9 +95,9 @@ impl Builder<'_, '_> {
         self.control_polygon(&control);
     }
 
-    /// Adds polylines. If the style has points, also adds dots at the points of the polylines. If the style sets no
-    /// color and the polylines are the levels of de Casteljau's construction, each level has the same color as in a
-    /// figure of this construction.
+    /// Adds polylines. If the style draws points, also adds dots at the points of the polylines. If the polylines are
+    /// the levels of de Casteljau's construction, they have the colors that these levels have in a figure of the
+    /// construction, unless the style sets a color.
     pub(super) fn polylines(&mut self, lines: &[Vec<DVec3>], color: Color) {
         let default = self.line_color(color);
         let are_levels = self.style.color.is_none() && are_levels(lines);
@@ -155,7 +155,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Adds a control polygon and its points, if the style has control polygons.
+    /// Adds a control polygon and its points, if the style draws control nets.
     fn control_polygon(&mut self, points: &[DVec3]) {
         let Some(lines) = self.style.control_nets else {
             return;
@@ -214,7 +214,7 @@ mod tests {
         let n = CELLS as usize;
         assert_eq!(drawing.lines.len(), 2 * n * (n + 1));
         assert_eq!(drawing.n_triangles(), 2 * n * n);
-        // Each line must be a side of the faces beside it.
+        // Both ends of each line must be corners of the faces that the line lists as its neighbors.
         for line in &drawing.lines {
             let part = &drawing.parts[0];
             for face in line.faces.into_iter().filter(|&f| f != NO_FACE) {
@@ -264,7 +264,7 @@ mod tests {
         let found = colors(&Style::default());
         assert_eq!(found.len(), 4);
         assert!((1..4).all(|i| !found[..i].contains(&found[i])));
-        // The color of the style, if there is one, replaces the colors of the levels.
+        // If the style sets a color, all levels have this color.
         let blue = Color::rgb(0, 0, 200);
         let style = Style {
             color: Some(blue),

@@ -72,7 +72,7 @@ impl Builder<'_, '_> {
                     }
                 }
                 Elements::Vertices(vertices) => {
-                    // A white border separates the dots from lines and from other dots.
+                    // Each dot has a white border, which separates it from lines and from other dots.
                     let white = [1.0, 1.0, 1.0, 0.9];
                     let border = highlight.size * (1.0 + BORDER);
                     for &v in vertices.iter().filter(|&&v| mesh.has_vertex(v)) {
@@ -120,7 +120,7 @@ impl Builder<'_, '_> {
         self.line([at; 2], diameter, color, [NO_FACE; 2], hidden);
     }
 
-    /// Adds isolated vertices. If the style has normals or points, also adds the normals or the dots of all vertices.
+    /// Adds isolated vertices. If the style draws normals or points, also adds a normal or a dot for each vertex.
     fn vertices(&mut self, mesh: &Mesh) {
         let dark = crate::Color::rgb(28, 34, 48).linear();
         let is_isolated = |v: &VertexId| mesh.vertex_half_edge(*v).is_none();
@@ -156,7 +156,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Adds labels with the ids of vertices or faces, if the style has ids.
+    /// Adds labels with the ids of vertices or faces, if the style asks for them.
     fn ids(&mut self, object: &Object, mesh: &Mesh) -> Result<(), PictureError> {
         let Some(ids) = self.style.ids else {
             return Ok(());

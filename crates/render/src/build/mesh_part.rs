@@ -69,7 +69,7 @@ impl<'s> Builder<'s, '_> {
         Ok(())
     }
 
-    /// Returns the normals that the shading of the style needs.
+    /// Returns normals for the shading that the style sets.
     fn normals(&self, mesh: &'s Mesh) -> Channel<'s> {
         let is_flat = matches!(self.style.shading, Shading::Flat | Shading::Plain);
         if is_flat {
@@ -87,7 +87,7 @@ impl<'s> Builder<'s, '_> {
         }
     }
 
-    /// Returns the colors, the surfaces, and the index of the surface of each face.
+    /// Returns the colors of a mesh, the surfaces for its materials, and the index of the surface of each face.
     fn colors(
         &mut self,
         object: &Object,

@@ -17,7 +17,7 @@ impl Builder<'_, '_> {
     /// Returns [`PictureError::Budget`] if the texture needs too much memory.
     pub(super) fn surface(&mut self, material: &scene::Material) -> Result<Surface, PictureError> {
         let [r, g, b, base] = material.base_color.map(narrow);
-        // The alpha of the material, and how the alpha of its texture is used (glTF 2.0 specification, 3.9.4).
+        // The factor for alpha, and the rule for the alpha of the texture (glTF 2.0 specification, 3.9.4).
         let (alpha, texture_alpha) = match material.alpha {
             scene::AlphaMode::Opaque => (1.0, Alpha::Ignored),
             scene::AlphaMode::Blend => (base, Alpha::Blended),
@@ -112,13 +112,13 @@ mod tests {
         }
     }
 
-    /// Returns a scene with the unit square, which has this material.
+    /// Returns a scene that contains the unit square with this material.
     fn square(material: Material) -> Scene {
         let mut mesh: Mesh = shapes::square();
         let uvs = mesh.half_edges().map(|h| mesh.position(mesh.origin(h)));
         let uvs: Vec<DVec2> = uvs.map(DVec3::truncate).collect();
-        // If the material uses the second set of texture coordinates, the first set is set to 0, so that a use of the
-        // wrong set is detected.
+        // If the material uses the second set of texture coordinates, all coordinates in the first set are 0, so that
+        // the test fails if the wrong set is used.
         if material
             .base_color_texture
             .as_ref()
@@ -145,8 +145,8 @@ mod tests {
 
     /// Draws the unit square, seen from above, so that it fills a picture of `side` times `side` pixels.
     fn draw(material: Material, side: u32) -> Vec<[u8; 4]> {
-        // The height of an orthographic picture is 2 tan(15 degrees) times the distance of the camera. At this
-        // distance, it is 1 unit.
+        // An orthographic picture shows a height of 2 tan(15 degrees) times the distance of the camera. At the distance
+        // `distance`, this height is 1 unit.
         let distance = 0.5 / libm::tan(15.0_f64.to_radians());
         let camera = Camera::LookAt {
             from: [0.5, 0.5, distance],
@@ -187,7 +187,7 @@ mod tests {
     #[test]
     fn a_checkerboard_of_opaque_and_transparent_squares_covers_half_of_the_picture() {
         for mode in MODES {
-            // Each square of the checkerboard has 8 x 8 pixels and sharp edges.
+            // In this picture, each square of the checkerboard has 8 x 8 pixels and sharp edges.
             let pixels = draw(
                 material(checkerboard(8, [WHITE, CLEAR]), mode, Filter::Nearest),
                 64,

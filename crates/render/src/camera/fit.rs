@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use super::{Projection, Side, Up, View};
 use crate::PictureError;
 
-/// Returns the outermost point in each of these directions and in both directions of each axis. The list is empty if
-/// there are no points.
+/// Returns the outermost points: one in each of `directions`, and one in each direction of each coordinate axis. The
+/// list is empty if there are no points.
 pub(super) fn outermost(
     directions: &[DVec3],
     points: &impl Fn(&mut dyn FnMut(DVec3)),
@@ -86,7 +86,8 @@ impl Fit {
         self.tangent.map_or(DVec2::ZERO, |_| self.half)
     }
 
-    /// Returns the few points that determine the camera: the outermost points in all relevant directions.
+    /// Returns the points that determine the camera: the outermost points towards the clipping planes and the camera,
+    /// and along the coordinate axes.
     pub(super) fn extreme_points(&self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Vec<DVec3> {
         let ([x, y, z], slant) = (self.axes, self.slant());
         let directions = [

@@ -42,8 +42,7 @@ fn a_fitted_camera_shows_all_points_inside_its_margins() {
                 let seen = view.screen_point(p).unwrap();
                 (min, max) = (min.min(seen.at), max.max(seen.at));
             });
-            // In one direction, the points touch both margins. In the other direction, the points stay inside of both
-            // margins.
+            // The points touch both horizontal or both vertical margins, and lie inside of the other two margins.
             let margin = DVec2::new(20.0, 10.0);
             let (low, high) = (min - margin, DVec2::new(200.0, 100.0) - margin - max);
             assert!(low.min_element() > -1e-6 && high.min_element() > -1e-6);
@@ -199,7 +198,7 @@ fn the_extreme_points_of_all_parts_give_the_same_view_as_all_points() {
                 );
                 assert!(a.at.distance(b.at) < 1e-9, "{from:?} {projection:?}");
             }
-            // A steady camera also shows all points, possibly at a smaller scale.
+            // A steady camera must also show all points, but can show them at a smaller scale.
             let steady = fit(from, up, projection, 0.0, true);
             let extreme = steady.extreme_points(&|f| each(&all, f), size).unwrap();
             let view = View::new(&steady, &|f| each(&extreme, f), size).unwrap();
@@ -222,7 +221,7 @@ fn auto_is_the_axis_on_whose_plane_the_scene_stands() {
     };
     assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 3.0]), Up::Z);
     assert_eq!(axis([-1.0, 0.0, -1.0], [1.0, 3.0, 1.0]), Up::Y);
-    // The scene stands on both planes or on neither of them, or is flat.
+    // If a scene is flat, or stands on both planes y = 0 and z = 0 or on neither of them, the y axis points upwards.
     assert_eq!(axis([0.0; 3], [1.0; 3]), Up::Y);
     assert_eq!(axis([-1.0; 3], [1.0; 3]), Up::Y);
     assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]), Up::Y);
@@ -265,13 +264,13 @@ fn a_camera_that_looks_at_a_point_has_the_same_upward_axis_in_sheets_and_turntab
     };
     let at = |view: Result<View, _>| view.unwrap().screen_point(DVec3::ONE).unwrap().at;
     let expected = at(View::new(&camera(Up::Z), &standing, size));
-    // A sheet draws each scene with the extreme points of all scenes.
+    // A sheet computes one view for all scenes, from the extreme points of each scene.
     let extreme = camera(Up::Auto).extreme_points(&standing, size).unwrap();
     let each = |f: &mut dyn FnMut(DVec3)| extreme.iter().copied().for_each(f);
     assert!(extreme.len() <= 6);
     assert_eq!(at(View::new(&camera(Up::Auto), &each, size)), expected);
     assert_eq!(camera(Up::Z).extreme_points(&standing, size).unwrap(), []);
-    // A turntable moves the camera around the upward axis.
+    // In a turntable animation, the camera moves around the upward axis.
     for degrees in [0.0, 70.0] {
         let [auto, z] = [Up::Auto, Up::Z].map(|up| camera(up).turned(degrees, &standing));
         assert_eq!(auto, z);

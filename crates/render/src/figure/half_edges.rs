@@ -99,7 +99,8 @@ pub fn half_edges(mesh: &Mesh, faces: &[FaceId], width: f64) -> (Svg, usize) {
     (svg, faces.len() - visible.len())
 }
 
-/// Whether the front of a face is seen at an angle at which names fit into the face. `face_normal` can have any length.
+/// Whether the front of a face is seen, and at an angle that leaves enough room for names. `face_normal` can have any
+/// length.
 fn is_visible(face_normal: DVec3, direction: DVec3) -> bool {
     const MIN_COSINE: f64 = 0.15;
     face_normal.dot(direction) >= MIN_COSINE * face_normal.length()
@@ -165,8 +166,8 @@ fn middle(points: impl Iterator<Item = DVec2>) -> DVec2 {
     sum / f64::max(n, 1.0)
 }
 
-/// Returns how far a corner of a face is moved towards the middle of the face. `distance` is the distance between the
-/// corner and the middle.
+/// Returns by how many pixels a corner of a face is moved towards the middle of the face. `distance` is the distance
+/// between the corner and the middle, in pixels.
 fn inset(distance: f64) -> f64 {
     (GAP * 1.8).min(0.3 * distance)
 }

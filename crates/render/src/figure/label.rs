@@ -12,7 +12,7 @@ use crate::Image;
 pub struct Label {
     /// The position in pixels from the top left corner.
     pub position: DVec2,
-    /// The text. Its [`Anchor`] is at the position.
+    /// The text. Its [`Anchor`], the start or the middle of its baseline, determines the horizontal alignment.
     pub text: Text,
 }
 
@@ -31,7 +31,7 @@ impl Label {
 pub fn draw_labels(image: &mut Image, labels: &[Label]) {
     let size = DVec2::new(f64::from(image.width), f64::from(image.height));
     for label in labels {
-        // Each label is drawn as a document of its own. A single document with all labels would take memory for the
+        // Each label is drawn as a separate document. A single document with all labels would need memory for the
         // bounding box of all labels together.
         let mut svg = Svg::new(size.x, size.y);
         svg.text(
@@ -47,8 +47,8 @@ pub fn text_width(text: &Text) -> f64 {
     line(DVec2::ZERO, text).width.into()
 }
 
-/// The maximum number of characters of a string that are measured. The limit bounds the time for long strings. Longer
-/// texts rarely fit into an image.
+/// The maximum number of characters of a string that are measured. This limits the time for very long strings, which
+/// would rarely fit into an image anyway.
 const MAX_CHARACTERS: usize = 4096;
 
 /// Shortens a text so that it fits into `width` pixels.

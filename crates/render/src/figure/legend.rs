@@ -90,8 +90,8 @@ pub fn draw_legend(image: &mut Image, legend: &Legend, corner: Corner, scale: f6
     draw(image, &svg, scale);
 }
 
-/// Returns the number of pixels that a legend in a corner of an image would cover. Pixels of the background color are
-/// not counted.
+/// Returns how many pixels of the image a legend in a corner would cover. Pixels of the background color are not
+/// counted.
 pub fn covered_pixels(
     image: &Image,
     legend: &Legend,
@@ -208,7 +208,8 @@ pub(super) fn write(svg: &mut Svg, legend: &Legend, corner: DVec2, size: DVec2) 
 /// Writes the bar with its ticks, with the highest number at the top.
 fn write_bar(svg: &mut Svg, corner: DVec2, [low, high]: [f64; 2], colors: &[Color]) {
     let [width, height] = BAR;
-    // The bar consists of strips of whole pixels, because programs differ in how they draw gradients.
+    // The bar consists of strips of whole pixels and not of an SVG gradient, because programs draw gradients
+    // differently.
     let color_at = |t: f64| {
         let last = colors.len().saturating_sub(1);
         let i = whole((t * last as f64).round());
@@ -262,8 +263,7 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     } else {
         high / steps - low / steps
     };
-    // If the two ends of the range are nearly equal, several labels would show the same number. Therefore the axis has
-    // only one tick.
+    // Between nearly equal ends, several labels would show the same number. Therefore the axis has only one tick.
     let largest = low.abs().max(high.abs());
     if rough <= largest * 1e-14 {
         return vec![Tick {

@@ -1,9 +1,9 @@
 //! Converts lines of text to outlines. Only the embedded fonts are used.
 //!
-//! If a font does not have a character, the first embedded font with this character is used, except in formulas. In
-//! formulas, and if no embedded font has the character, the font's own glyph for missing characters is drawn. In Inter,
-//! this glyph is blank. Letters are kerned, and accents are placed on their letters. Right-to-left text is not
-//! supported, because the fonts have no right-to-left letters.
+//! If the font of a text does not have a character, the first embedded font with this character is used. Formulas use
+//! only their own font. If no usable font has the character, the text shows the glyph for missing characters, which is
+//! blank in Inter. Letters are kerned, and accents are placed on their letters. Right-to-left text is not supported,
+//! because the fonts have no right-to-left letters.
 
 use std::sync::LazyLock;
 
@@ -83,11 +83,11 @@ struct Cluster {
     face: &'static Typeface,
     /// The font size.
     size: f32,
-    /// The sum of the shifts of the letter's run and of all previous runs, to the right and down.
+    /// The offset of the letter to the right and down: the sum of the shifts of its run and of all previous runs.
     shift: [f32; 2],
-    /// The distance from this cluster to the next one, in font units.
+    /// The distance from the origin of this letter to the origin of the next letter, in font units.
     units: i32,
-    /// The glyphs, and the offset of each from the origin, in font units.
+    /// The glyphs of the letter and its accents. Each glyph has an offset from the origin of the letter, in font units.
     glyphs: Vec<(GlyphId, [i32; 2])>,
 }
 
@@ -100,7 +100,7 @@ impl Cluster {
         self.units as f32 * self.scale()
     }
 
-    /// Adds the outlines of the glyphs, with the origin moved by `transform`.
+    /// Adds the outlines of the glyphs to `builder`. `transform` maps the origin of the letter to its place.
     fn outline(&self, transform: Transform, builder: &mut PathBuilder) {
         for &(glyph, [x, y]) in &self.glyphs {
             let mut outline = Outline::default();
@@ -167,8 +167,8 @@ fn clusters(text: &Text) -> Vec<Cluster> {
     clusters
 }
 
-/// Whether a character that is missing in all fonts is invisible and has no width. An invisible character joins or
-/// separates other characters, or sets their direction or variant.
+/// Whether a character is invisible and has no width, for characters that are missing in all fonts. Such a character
+/// joins or separates other characters, or sets their direction or variant.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
@@ -189,9 +189,9 @@ impl Typeface {
         Self { face, positions }
     }
 
-    /// Returns the embedded font that draws a character in text of `font`, and the glyph. If `font` does not have the
-    /// character and is not a formula font, all embedded fonts are tried in order. If no font with the character is
-    /// found, returns `font` and the glyph 0.
+    /// Returns the embedded font and the glyph that draw the character `c` in a text with the font `font`. If `font`
+    /// does not have the character and is not a formula font, all embedded fonts are tried in order. If no font with
+    /// the character is found, returns `font` and the glyph 0.
     fn find(font: Font, c: char) -> (&'static Self, GlyphId) {
         let (first, fallbacks) = match font {
             Font::Plain => (0, &FACES[..]),
@@ -221,7 +221,8 @@ impl Typeface {
         self.face.glyph_hor_advance(glyph).unwrap_or(0).into()
     }
 
-    /// Returns the additional distance between two adjacent glyphs, which is usually negative.
+    /// Returns the kerning of two adjacent glyphs: a number, usually negative, that is added to the distance between
+    /// them.
     fn kerning(&self, first: GlyphId, second: GlyphId) -> i32 {
         let adjustment = |table: &PositioningSubtable| {
             let PositioningSubtable::Pair(pairs) = table else {

@@ -47,8 +47,9 @@ pub fn bytes_needed(width: u32, height: u32) -> u64 {
     u64::from(width) * u64::from(height) * 8
 }
 
-/// Draws a document over an image, with both top left corners aligned. Parts outside of the image are cut off. The
-/// required memory is proportional to the part of the bounding box of the document that is inside of the image.
+/// Draws a document over an image, with the top left corners of both at the same place. Parts outside of the image are
+/// cut off. The required memory is proportional to the part of the bounding box of the document that is inside of the
+/// image.
 pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
     let paths: Vec<PaintedPath> = svg.elements.iter().flat_map(PaintedPath::of).collect();
     let Some(area) = paths.iter().filter_map(PaintedPath::area).reduce(union) else {

@@ -30,7 +30,7 @@ pub enum UvFill {
     Stretch,
 }
 
-/// The aspect that has the last color of [`UvFill::Stretch`]; see [`geometry::uv::Stretch`].
+/// The aspect that [`UvFill::Stretch`] shows with the last color of the color map; see [`geometry::uv::Stretch`].
 pub const MAX_ASPECT: f64 = 1.5;
 
 const WHITE: Color = [255; 4];
@@ -39,7 +39,7 @@ const EDGE: Color = [0x1f, 0x29, 0x37, 110];
 const BORDER: Color = [0x1f, 0x29, 0x37, 255];
 /// The smallest distance between the frame and the border of the figure, in pixels.
 const MARGIN: f64 = 8.0;
-/// The largest coordinate of a figure, in pixels.
+/// The largest coordinate in a figure, in pixels. Points farther away are clamped.
 const FAR: f64 = 1e6;
 /// The number of colors that show the stretch. Faces of the same color form one shape.
 const N_COLORS: usize = 16;

@@ -1,4 +1,4 @@
-//! Sorts triangles and lines into the tiles of the picture that their bounding boxes touch.
+//! Assigns triangles and lines to tiles of the picture: to all tiles that their bounding boxes touch.
 //!
 //! The triangles and lines are called items. They are divided into chunks. For each chunk, one task makes a list of
 //! items for each tile, with a counting sort. A tile reads its lists chunk by chunk. The size of the lists is bounded,
@@ -22,11 +22,11 @@ use crate::{PictureError, View};
 const MAX_CHUNKS: usize = 32;
 /// The minimum number of items in a chunk. The last chunk of a part can have fewer items than this minimum.
 const MIN_CHUNK: usize = 1 << 15;
-/// An item that touches more tiles than this is always in the list that all tiles read.
+/// If an item touches more tiles than this number, it is always in the list that all tiles read.
 const MAX_LISTED_TILES: usize = 64;
-/// The lists of a chunk have at most `EXTRA_ENTRIES` entries, plus this number of entries for each item of the chunk.
+/// If a chunk has n items, its lists have at most `ENTRIES_PER_ITEM` * n + `EXTRA_ENTRIES` entries in total.
 const ENTRIES_PER_ITEM: usize = 8;
-/// See `ENTRIES_PER_ITEM`.
+/// The constant part of the maximum number of entries; see `ENTRIES_PER_ITEM`.
 const EXTRA_ENTRIES: usize = 4096;
 /// The bit that is set in a list entry that refers to a clipped triangle.
 const CLIPPED: u32 = 1 << 31;
@@ -47,8 +47,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns a number of tiles: an item that touches at most this number of tiles is in the list of each of these tiles.
-/// An item that touches more tiles is in the list that all tiles read, so that the size of the lists is bounded.
+/// Returns the maximum number of tiles for an item in the lists of single tiles. An item that touches more tiles is in
+/// the list that all tiles read, so that the size of the lists is bounded.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {
@@ -166,8 +166,8 @@ impl Bins {
         }
     }
 
-    /// Returns the items of a tile. Items that touch many tiles come first. The order is kept among the items that
-    /// touch many tiles, and among the other items.
+    /// Returns the items of a tile. Items that touch many tiles come first. Within each of these two groups, the items
+    /// are in their original order.
     fn items_of(&self, tile: usize) -> impl Iterator<Item = u32> {
         let range = self.starts[tile] as usize..self.starts[tile + 1] as usize;
         self.large.iter().chain(&self.items[range]).copied()
@@ -184,13 +184,13 @@ pub(super) struct Triangles {
 /// Some triangles of one part.
 struct Chunk {
     part: usize,
-    /// The index that the first triangle of the chunk has in its part.
+    /// The index of the first triangle of the chunk, counted in its part.
     first: usize,
-    /// The index that the first triangle of the chunk has among the triangles of all parts.
+    /// The index of the first triangle of the chunk, counted through all parts.
     first_of_all: u32,
     bins: Bins,
-    /// The pieces into which clipped triangles are divided. Each piece is stored with the index that its triangle has
-    /// in the chunk.
+    /// The pieces into which clipped triangles are divided. Each entry has the index of the triangle in the chunk, and
+    /// a piece.
     clipped: Vec<(u32, ProjectedTriangle)>,
 }
 
@@ -357,7 +357,7 @@ mod tests {
     fn lists_are_bounded_and_complete() {
         let frame = Frame::new([640, 640]);
         for side in [1, 3, 8, 9, 20] {
-            // The items are squares of `side` times `side` tiles, distributed over the picture.
+            // Each item is a square of `side` times `side` tiles. The squares are distributed over the picture.
             let items: Vec<(u32, TileRect)> = (0..5000)
                 .map(|i| {
                     let (left, top) = (i % (21 - side), i / 20 % (21 - side));

@@ -1,6 +1,6 @@
 //! Selects the samples of a pixel that a transparent triangle covers. The number of these samples is proportional to
-//! alpha. The first sample that is covered usually differs from surface to surface, so that several transparent
-//! surfaces can be visible in the same pixel.
+//! alpha. Different surfaces usually cover different samples first, so that several transparent surfaces can be visible
+//! in the same pixel.
 
 use glam::DVec2;
 
@@ -28,7 +28,7 @@ pub(super) struct Textured<'a> {
     uvs: [DVec2; 3],
     /// The alpha of the material.
     alpha: f32,
-    /// The first sample to be covered; see [`rank`].
+    /// The sample that is covered first if alpha is small; see [`rank`].
     rotation: usize,
     /// The pixel that was tested last, and the differences between the texture coordinates of neighboring samples in
     /// that pixel.
@@ -36,7 +36,7 @@ pub(super) struct Textured<'a> {
 }
 
 impl<'a> Shader<'a> {
-    /// Returns the samples that a triangle can cover.
+    /// Returns the samples of a pixel that a triangle can cover, according to its alpha and its texture.
     pub(super) fn coverage(&self, id: u32) -> Coverage<'a> {
         let (index, triangle) = self.locate(id);
         let part = &self.drawing.parts[index];
@@ -70,7 +70,7 @@ impl<'a> Shader<'a> {
 }
 
 impl Textured<'_> {
-    /// Whether the triangle covers a sample of a pixel.
+    /// Whether the alpha of the material and the texture is high enough to cover a sample of a pixel.
     pub(super) fn covers(&mut self, pixel: [u32; 2], sample: usize) -> bool {
         let middle = DVec2::new(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
         let steps = match self.last_pixel {

@@ -1,10 +1,10 @@
 //! Draws lines over triangles. Lines have a constant width and round ends, and are hidden where a triangle is in front
 //! of them.
 //!
-//! For each sample, the depths of the line and of the surface are compared at one point: the point of the line's axis
-//! that is nearest to the sample. At that point, the surface is replaced by the plane of the triangle that is visible
-//! at the sample. Thus a thick line on a slanted surface is visible in its full width, although half of the line is
-//! behind the surface.
+//! To decide whether a line is visible at a sample, its depth is compared with the depth of the surface. Both depths
+//! are taken at the point of the line's axis that is nearest to the sample. There, the plane of the triangle that is
+//! visible at the sample stands for the surface. Thus a thick line on a slanted surface is visible in its full width,
+//! although one half of its width is behind the surface.
 //!
 //! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface.
 

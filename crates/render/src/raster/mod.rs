@@ -61,7 +61,7 @@ pub struct PlacedLabel {
     pub is_hidden: bool,
 }
 
-/// The size of a picture in pixels and in tiles.
+/// The width and height of a picture, in pixels and in tiles.
 struct Frame {
     width: u32,
     height: u32,
@@ -120,7 +120,7 @@ pub fn bytes_needed(drawing: &Drawing, view: &View, size: [u32; 2], look: &Look)
     pixel_bytes(size) + points + triangle_bytes + line_bytes + maps
 }
 
-// The costs below are estimates for progress reports, in nanoseconds.
+// The following constants are estimated times in nanoseconds. Progress reports use them to weight the stages.
 
 /// The cost of projecting a triangle and sorting it into tiles.
 const BIN_TRIANGLE_COST: u64 = 60;

@@ -1,4 +1,4 @@
-//! Ambient occlusion: how much of the surroundings of a point on a surface is visible from that point.
+//! Computes ambient occlusion: surfaces are darker where less of their surroundings is visible from them.
 //!
 //! Depth maps are drawn from directions that are spread evenly over the sphere. Each map stores the nearest and the
 //! farthest depth, so it serves two opposite directions. The openness of a point is the weighted mean of its visibility
@@ -143,8 +143,8 @@ impl Occlusion {
             let (column, row) = (x as usize, y as usize);
             let (s, t) = (x - column as f32, y - row as f32);
             let index = row * self.side + column;
-            // Behind the stored depth, visibility decreases linearly over 6 texels of depth. Visibility is interpolated
-            // between four texels.
+            // A point at the stored depth or in front of it is visible. Behind the stored depth, visibility decreases
+            // linearly to 0 over 6 texels of depth. Visibility is interpolated between four texels.
             let (side, depth) = if cosine > 0.0 {
                 (0, depth)
             } else {
@@ -224,7 +224,7 @@ fn step(texels: f32) -> i32 {
     step
 }
 
-/// Draws a triangle into a depth map, into the texels whose middles it covers.
+/// Draws a triangle into all texels of a depth map whose middles the triangle covers.
 fn draw_triangle(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [MapPoint; 3]) {
     let range = |i: usize| {
         let [p, q, r] = [a, b, c].map(|corner| corner.at[i]);
@@ -247,8 +247,8 @@ fn draw_triangle(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [MapPoint; 3])
         let y = (row * STEPS + STEPS / 2 - a.at[1]) as f32;
         for column in columns.clone() {
             let x = (column * STEPS + STEPS / 2 - a.at[0]) as f32;
-            // The texel forms a triangle with the side opposite to b, and another with the side opposite to c. `s` and
-            // `t` are twice the signed areas of these two triangles.
+            // The middle of the texel forms a triangle with the side opposite to b, and another with the side opposite
+            // to c. `s` and `t` are twice the signed areas of these two triangles.
             let (s, t) = (x * vy - y * vx, ux * y - uy * x);
             let rest = area - s - t;
             let is_inside = if area > 0.0 {

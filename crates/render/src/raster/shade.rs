@@ -39,7 +39,8 @@ pub(super) struct Shader<'a> {
     fill: DVec3,
 }
 
-/// A point and its openness: the fraction of its surroundings that is visible from the point.
+/// A point of a surface, the normal there, and the openness: the fraction of the surroundings that is visible from the
+/// point.
 #[derive(Clone, Copy)]
 struct OpennessSample {
     at: DVec3,
@@ -47,7 +48,7 @@ struct OpennessSample {
     openness: f32,
 }
 
-/// Results that are reused for the next point.
+/// Results for the last point, which can be reused for the next point.
 #[derive(Default)]
 pub(super) struct ShadingCache {
     /// The triangle that was shaded last, and its data.
@@ -63,7 +64,7 @@ impl ShadingCache {
     }
 }
 
-/// The data of a triangle that is the same for all its points.
+/// Data that all points of a triangle have in common.
 #[derive(Clone, Copy)]
 pub(super) struct TriangleData {
     /// The index of the part.
@@ -156,8 +157,8 @@ impl<'a> Shader<'a> {
         (part, (id - self.firsts[part][0]) as usize)
     }
 
-    /// Returns the face of a triangle, a point of the triangle, and a normal of any length. The index of the face is
-    /// counted through all parts.
+    /// Returns the index of the face of a triangle (counted through all parts), a point of the triangle, and the normal
+    /// of the triangle. The normal can have any length.
     pub(super) fn plane(&self, id: u32) -> (u32, DVec3, DVec3) {
         let (part, triangle) = self.locate(id);
         let p = &self.drawing.parts[part];
@@ -224,14 +225,14 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Returns the openness of a point: the fraction of its surroundings that is visible from the point. The weaker the
-    /// ambient occlusion of the style, the nearer to 1 is the result.
+    /// Returns the openness of a point: the fraction of its surroundings that is visible from the point. If the ambient
+    /// occlusion of the style is weak, the result is nearer to 1, as if more of the surroundings were visible.
     fn openness(&self, point: &SurfacePoint, last: &mut Option<OpennessSample>) -> f32 {
         let Some(occlusion) = &self.occlusion else {
             return 1.0;
         };
-        // Nearby points of the same surface in one pixel have nearly the same openness, so the openness of the last
-        // point is reused.
+        // If the last point in this pixel is near and has a similar normal, its openness is reused, because the
+        // openness of this point is nearly the same.
         let near = last.filter(|k| {
             let pixel = self
                 .view
@@ -354,7 +355,7 @@ fn matcap(color: [f32; 3], n: DVec3, openness: f32) -> [f32; 3] {
     let border = border * border * border * 0.35;
     let high = narrow(n.dot(DVec3::new(-0.28, 0.42, 0.86).normalize()).max(0.0));
     let high = libm::powf(high, 30.0) * 0.16;
-    // Hollows get a warmer color, like light that is reflected several times.
+    // Where ambient occlusion is strong, the color is warmer, like light that is reflected several times.
     let tint = [1.0, 0.97, 0.94];
     std::array::from_fn(|i| {
         let shade = openness + (1.0 - openness) * color[i] * tint[i] * 0.5;

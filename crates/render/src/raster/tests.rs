@@ -271,8 +271,8 @@ fn rendering_reports_progress_and_can_be_cancelled_at_each_stage() {
         "{fractions:?}"
     );
     assert!(fractions[0] == 0.0 && fractions[fractions.len() - 1] > 0.99);
-    // The work is canceled at the start, while triangles are sorted, while maps are drawn, and while tiles are drawn. A
-    // listener that has canceled the work is not called again.
+    // The listener cancels the work at the start, while triangles are sorted into tiles, while depth maps are drawn, or
+    // while tiles are drawn. After that, the listener must not be called again.
     for end in [0.0, 0.05, 0.3, 0.9] {
         let result = render_until(end);
         assert!(matches!(result, Err(PictureError::Cancelled)), "{end}");
@@ -284,7 +284,7 @@ fn rendering_reports_progress_and_can_be_cancelled_at_each_stage() {
 
 #[test]
 fn the_nearer_of_intersecting_triangles_is_visible() {
-    // Two triangles intersect along x = 0. The red one is nearer on the left.
+    // A red and a blue triangle intersect along x = 0. The red triangle is nearer on the left side.
     let size = [32, 32];
     let triangle = |slope: f64| {
         [[-3.0, -3.0], [3.0, -3.0], [0.0, 6.0]]
@@ -363,8 +363,8 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle() {
 #[test]
 fn a_line_covers_the_same_area_in_every_direction() {
     let size = [200, 200];
-    // The angle of 45 degrees is left out. At this angle, all border pixels have the same coverage, and the error of 16
-    // samples is a few percent.
+    // An angle of 45 degrees is not tested. At this angle, all border pixels have the same error, which is a few
+    // percent with 16 samples.
     for degrees in [0.0_f64, 17.0, 43.0, 80.0] {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         let along = DVec3::new(cos, sin, 0.0) * 60.0;
@@ -447,7 +447,7 @@ fn a_line_is_hidden_behind_a_surface_and_visible_on_it() {
         let light = |p: &[u8; 4]| 1.0 - f64::from(to_linear(p[0]));
         picture.image.pixels.iter().map(light).sum::<f64>()
     };
-    // The line is visible in its full width if it is on the slanted surface or in front of the surface.
+    // The line must be visible in its full width if it is on the slanted surface or in front of it.
     let visible = with_line(0.5, 0.0);
     assert!(visible > 300.0, "{visible}");
     assert_eq!(with_line(0.0, 0.0), visible);

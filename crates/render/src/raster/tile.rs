@@ -2,9 +2,9 @@
 //!
 //! A pixel has 16 samples. Each of its 16 rows and each of its 16 columns contains exactly one sample (n-rooks:
 //! Shirley, "Discrepancy as a Quality Measure for Sample Distributions", 1991). This arrangement of samples was found
-//! by a search. The search tested each arrangement with edges of all directions that cut a pixel. Of all tested
-//! arrangements, this one has the smallest difference between the fraction of samples that are covered and the exact
-//! fraction of the pixel that is covered.
+//! by a search. For many edges that cut a pixel in all directions, the search compared the fraction of covered samples
+//! with the exact covered fraction of the pixel. Of all tested arrangements, this one has the smallest difference
+//! between the two fractions.
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
@@ -52,11 +52,12 @@ pub(super) struct Tile {
     /// For each pixel, the line that covers each of its samples. The number is 2 i + 2 for a visible line i, 2 i + 3 for
     /// a hidden line i, and 0 if no line covers the sample.
     pub(super) lines: Vec<[u32; SAMPLES]>,
-    /// Cached planes of triangles.
+    /// The planes of triangles that were used last.
     pub(super) planes: Planes,
 }
 
-/// A cache of the planes of triangles. Each entry has the triangle, its face, a point of the plane and the normal.
+/// A cache of the planes of triangles. Each entry has the index of the triangle, the index of its face, a point of the
+/// plane and the normal.
 pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
 impl Tile {

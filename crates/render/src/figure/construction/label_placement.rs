@@ -1,8 +1,8 @@
-//! Places labels beside points so that they hide as little of the figure as possible.
+//! Places labels beside points. The labels hide as little of the figure as possible.
 
 use glam::DVec2;
 
-/// The obstacles for labels.
+/// The elements of a figure that labels should not hide, and the area for labels.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LabelPlacement {
     /// The lines of the figure.
@@ -22,10 +22,10 @@ const DIRECTIONS: u32 = 24;
 const DISTANCES: [f64; 3] = [3.0, 8.0, 15.0];
 
 impl LabelPlacement {
-    /// Places a label of this size beside `point`, a dot with this radius, and returns the middle of the label.
+    /// Places a label with this size beside a dot with this radius at `point`. Returns the middle of the label.
     ///
-    /// Chooses the position where the label hides the least of the figure, preferably in the direction `outward`. The
-    /// label becomes an obstacle for later labels.
+    /// Chooses the position at which the label hides the least of the figure, and prefers positions in the direction
+    /// `outward`. Later labels avoid this label.
     pub(crate) fn place(
         &mut self,
         point: DVec2,
@@ -55,8 +55,8 @@ impl LabelPlacement {
         best.1
     }
 
-    /// Returns the cost of a label at a position. The cost is the length of the lines that the label hides, in pixels.
-    /// The cost is higher if the label hides points or other labels, or is partly outside of the visible area.
+    /// Returns the cost of a label at a position: the length of the lines that the label hides, in pixels. Hidden
+    /// points, hidden labels, and parts of the label outside of the visible area add to the cost.
     fn cost(&self, middle: DVec2, half: DVec2) -> f64 {
         let padded = half + DVec2::splat(2.0);
         let segments = self.segments.iter();

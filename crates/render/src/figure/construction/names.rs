@@ -80,7 +80,7 @@ pub(super) fn draw(
     }
 }
 
-/// Returns the obstacles for names.
+/// Returns the lines and points of the figure, which names should not hide.
 fn obstacles(
     curve: &Curve<DVec2>,
     levels: &[Vec<DVec2>],

@@ -125,7 +125,7 @@ class Document:
         else:
             faces = [[order[k], order[k + 1], order[0]] for k in range(1, len(order) - 1)]
         corners = ([corner(i) for i in face] for face in faces)
-        # A triangle can begin with any of its corners.
+        # Two triangles are the same if they differ only in the corner at which they begin.
         return [min(face[k:] + face[:k] for k in range(3)) for face in corners]
 
     def mesh(self, index):

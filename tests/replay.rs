@@ -7,8 +7,9 @@
 //! teapot: every step is needed    the recipe fails if any one of its steps is removed
 //! ```
 //!
-//! Large recipes are not run from every step. Steps that only write files, and steps that must be refused, are not
-//! removed. If the environment variable `MESHWRIGHT_UPDATE` is set, digests.txt is rewritten before the tests run.
+//! The test `from every step` skips recipes that need much memory. The test `every step is needed` does not remove
+//! steps that only write files, and steps that must be refused. If the environment variable `MESHWRIGHT_UPDATE` is set,
+//! digests.txt is rewritten before the tests run.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -25,12 +26,11 @@ use tempfile::TempDir;
 /// The memory budget in bytes.
 const BUDGET: u64 = 4 << 30;
 
-/// The test that runs a recipe from every step does nothing if the predicted memory peak of the recipe is above this
-/// number of bytes.
+/// The test `from every step` skips a recipe if its predicted memory peak is above this number of bytes.
 const MAX_BYTES_FROM_EVERY_STEP: u64 = 16 << 20;
 
-/// The operations that only write files. The expectations of a recipe do not depend on these operations, except for
-/// expectations about files.
+/// The operations that only write files. Without a step with one of these operations, a recipe fails only if it has
+/// expectations about the files.
 const OUTPUTS: [&str; 5] = [
     "CurveFigure",
     "HalfEdgeFigure",
@@ -267,8 +267,8 @@ fn from_every_step(recipe: &Scene) -> Result<(), Failed> {
     if loaded.forecast.peak_bytes() > MAX_BYTES_FROM_EVERY_STEP {
         return Ok(());
     }
-    // A run that starts at a later step does not write the files of the earlier steps, so expectations about files are
-    // removed.
+    // A run that starts at a later step does not write the files of the earlier steps, so the test removes expectations
+    // about files.
     let expectations = &mut loaded.recipe.expectations;
     expectations.retain(|placed| placed.that.output().is_none());
     let recorder = SceneRecorder::default();
@@ -306,8 +306,8 @@ fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
         }
         let id = step.field("id").filter(|_| step.name().is_none());
         let id = id.and_then(Value::as_str);
-        // If a step is removed, the expectations that name the id of this step always fail. Therefore the recipe is
-        // also tested without the step and without these expectations.
+        // Expectations that name the id of a removed step always fail. Therefore the recipe is tested once with these
+        // expectations and once without them.
         let naming = list(&parsed.value, "expect").iter().filter(|expectation| {
             let after = expectation
                 .field("after")
@@ -341,7 +341,7 @@ fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
     fail(format!("the recipe succeeds without these steps:\n{steps}"))
 }
 
-/// Tests that a step is reported as unneeded if it only affects expectations that name it.
+/// Tests that a step is reported as unneeded if only those expectations fail without it that name its id.
 fn unneeded_steps_are_found() -> Result<(), Failed> {
     let source = r#"(
         recipe: 1,

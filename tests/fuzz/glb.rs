@@ -1,5 +1,5 @@
 //! Reads arbitrary bytes as a `.glb` file. Most mutations change one of the two chunks and correct the lengths in the
-//! headers. Without the correction, the reader would reject nearly all files at the header.
+//! headers. Without correct lengths, the reader would reject nearly all files before it reads a chunk.
 
 #![no_main]
 

@@ -5,7 +5,8 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 export RAYON_NUM_THREADS=1
-# Seeds and words for recipes: the examples of the reference.
+# For the target `recipe`, the examples in ops/README.md become seed inputs, and the names in this file become the
+# dictionary.
 mkdir -p target/corpus/recipe
 awk '/^```ron/ { n++; next } /^```/ { next } n && /^[A-Z][A-Za-z]*\(/ {
     print "(recipe: 1, steps: [Cube(), " $0 "])" > "target/corpus/recipe/example_" n ".ron"

@@ -232,7 +232,7 @@ fn change_surface(mesh: &mut Mesh, code: EditCode) {
     }
 }
 
-/// Changes a dense mesh as a whole, by the remaining kinds of edits.
+/// Changes a dense mesh as a whole, by the kinds of edits from 33 on.
 fn change_surface_further(mesh: &mut Mesh, code: EditCode) {
     let EditCode { kind, a, b, place } = code;
     let t = f64::from(place) / 4.0;

@@ -55,7 +55,7 @@ fn an_operation_cancelled_at_its_first_call_changes_nothing() {
         if stop.has_cancelled() && !was_cancelled {
             failures.push(format!("{}: did not stop when cancelled", case.name));
         }
-        // An operation that changes nothing does not have to report progress.
+        // An operation that makes no progress calls cannot be canceled, but then it must not change the scene.
         if (result.is_ok() || was_cancelled) && scene != case.scene {
             failures.push(format!(
                 "{}: changed the scene before its first progress call",
@@ -112,7 +112,7 @@ impl Progress for Gaps {
     }
 }
 
-/// Steps that take long on large meshes.
+/// Steps that take several seconds on large meshes.
 #[cfg(unix)]
 const LONG_STEPS: &[&str] = &[
     "Unwrap()",
@@ -126,8 +126,8 @@ const LONG_STEPS: &[&str] = &[
     "Picture(path: \"a.png\", size: (2000, 2000))",
 ];
 
-/// The limit of one second is much longer than the usual time between two progress calls, so that the test does not
-/// fail on a slow machine.
+/// Usually, the time between two progress calls is much shorter than one second. The limit is one second, so that the
+/// test does not fail on a slow machine.
 #[test]
 #[cfg(unix)]
 fn long_steps_report_progress_at_least_once_a_second() {
@@ -162,8 +162,8 @@ fn long_steps_report_progress_at_least_once_a_second() {
     assert_none(&failures);
 }
 
-/// The steps that precede the tested step in each recipe of the next test. These steps create an object for each name
-/// to which the sample parameters of operations refer.
+/// The first steps of each recipe that `run` executes, before the tested step. These steps create an object for each
+/// name to which the sample parameters of operations refer.
 const PRELUDE: &str = r#"
     Cube(name: "mesh", triangles: true),
     Octahedron(name: "other"),

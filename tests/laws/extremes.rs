@@ -35,8 +35,9 @@ const NUMBERS: &[&str] = &[
 /// stay small.
 const BUDGET: u64 = 1 << 20;
 
-/// `parameters` is a sample of the parameters of an operation. Returns this sample, and variants of it in which an
-/// extreme number replaces one number or all numbers. Variants that cannot be read are left out.
+/// `parameters` is a sample of the parameters of an operation. Returns this sample, and variants of it. In each
+/// variant, an extreme number replaces one number or all numbers. Variants that cannot be read as parameters of the
+/// operation are left out.
 fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec<String> {
     let tokens: Vec<_> = Lexer::new(parameters).collect();
     let with = |chosen: &[usize], number: &str| -> String {
@@ -132,7 +133,8 @@ fn extreme_numbers_give_valid_results_or_errors() {
     let mut failed = Vec::new();
     for (entry, sample) in samples(&registry) {
         let can_be_read = |text: &str| entry.deserialize(&ron_tree::parse(text).value).is_ok();
-        // Each variant is tested on the first scene and on one other scene. The other scenes are used in turn.
+        // Each variant is tested on the first scene and on one other scene. Consecutive variants use different other
+        // scenes.
         let others = scenes[1..].iter().cycle();
         for (text, other) in extreme_variants(sample, can_be_read).iter().zip(others) {
             for (name, scene) in [&scenes[0], other] {

@@ -1,5 +1,6 @@
-//! Tests that `check` predicts what a run will refuse or lose. One test runs small recipes: each makes a shape or loads
-//! a file, applies at most one operation, and saves the result. The other test runs the recipes in `scenes/`.
+//! Tests that `check` predicts which steps a run will refuse, and which data steps will lose, such as attributes that a
+//! file format cannot store. One test runs small recipes: each makes a shape or loads a file, applies at most one
+//! operation, and saves the result. The other test runs the recipes in `scenes/`.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -20,8 +21,8 @@ const KNOWN: [&str; 5] = [
     ", found patches",
 ];
 
-/// The names of losses that `check` cannot predict, because they depend on the values in the meshes: coincident
-/// vertices, and meshes that lose all faces.
+/// The names of losses that `check` cannot predict, because they depend on the values in the meshes: merged coincident
+/// vertices (`position`), and meshes that lose all faces (`mesh`).
 const OF_VALUES: [&str; 2] = ["position", "mesh"];
 
 /// Returns how a run disagrees with the forecast of its recipe.
@@ -55,7 +56,8 @@ fn disagreements(loaded: &Loaded) -> Vec<String> {
             ("faces", forecast.faces, done.faces),
         ];
         for (what, range, n) in counts {
-            // The forecast counts meshes only, but the report also counts control points and polylines.
+            // The forecast counts elements of meshes only, but the report of a run also counts control points and
+            // polylines.
             if range.max > 0 && !range.contains(n as u64) {
                 found.push(format!("{}: {n} {what}, but planned {range:?}", done.label));
             }
@@ -79,7 +81,7 @@ fn load(registry: &Registry, folder: &Path, steps: &str, budget: u64) -> Loaded 
     Engine::new(registry).load(&Source::new(folder.join("a.ron"), text), &options)
 }
 
-/// Files that recipes load, each with its text.
+/// The names and texts of files that the small recipes load.
 const FILES: [(&str, &str); 3] = [
     (
         "plain.obj",

@@ -1,9 +1,9 @@
-//! Checks how the time of operations and expectations grows. If the size of the mesh is doubled, the work must take at
-//! most 2.3 times as long.
+//! Checks how the time of operations and expectations grows with the mesh. On a mesh with twice as many faces, an
+//! operation must take at most 2.3 times as long.
 //!
-//! These tests measure times, because the work cannot be counted. The number of progress reports does not depend on the
-//! size of the mesh, and a quadratic search allocates no memory. The tests run only on request, and take about ten
-//! minutes:
+//! These tests measure times, because nothing that can be counted shows the work: the number of progress reports does
+//! not depend on the size of the mesh, and a quadratic search allocates no memory. The tests run only on request, and
+//! take about ten minutes:
 //!
 //! ```text
 //! MALLOC_ARENA_MAX=1 MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=100000000000 \
@@ -15,8 +15,8 @@
 //!
 //! Each measured time is the median of the processor times of several runs on one thread, so that other programs hardly
 //! affect it. The time on a mesh is compared with the time on a mesh that is four times as large (doubled twice). If
-//! the growth of the time is too large, the growth is measured again. If the growth is still too large, it is measured
-//! between meshes that are four times as large. The reason is that the time jumps at the size at which the data no
+//! the time grows too much, the same two meshes are measured again. If it still grows too much, the measurement is
+//! repeated with two meshes that are four times as large, because the time jumps at the size at which the data no
 //! longer fit in a cache.
 
 use std::collections::BTreeMap;
@@ -37,8 +37,8 @@ use crate::extremes::MEASURES;
 use crate::fixtures::with_attributes;
 use crate::samples::samples;
 
-/// The largest allowed factor between the times for a mesh and for a mesh that is four times as large. The factor
-/// is 2.3 for each of two doublings of the size.
+/// The largest allowed factor between the times for a mesh and for a mesh that is four times as large: 2.3 for each of
+/// two doublings.
 const MAX_GROWTH: f64 = 2.3 * 2.3;
 
 /// The minimum time of a measurement. Meshes are enlarged until the work takes this long.
@@ -47,7 +47,8 @@ const LONG_ENOUGH: Duration = Duration::from_millis(4);
 /// The maximum time for the first mesh that is measured. If the work takes longer, the test fails.
 const TOO_LONG: Duration = Duration::from_secs(20);
 
-/// The number of faces of the first mesh, and of the largest mesh before it is doubled twice.
+/// The number of faces of the first mesh that is measured, and the maximum number of faces of the smaller of two
+/// compared meshes.
 const SIZES: [usize; 2] = [1000, 64_000];
 
 /// Operations that are not tested, because their samples fit no generated scene, or because their work does not grow
@@ -67,12 +68,12 @@ const STEEPER: &[(&str, f64)] = &[
     ("Measure(of: Geodesic", 8.5),
     ("Smooth(by: Implicit", 8.5),
     // The time to fill a hole of at most 500 edges is cubic in the number of edges. The boundary of a grid with n faces
-    // has a length proportional to n^0.5, so this time is proportional to n^1.5. The exceptions are the largest grids,
-    // whose boundaries have more than 500 edges.
+    // has a length proportional to n^0.5, so this time is proportional to n^1.5. Only the largest grids have boundaries
+    // of more than 500 edges.
     ("FillHoles(", 8.5),
 ];
 
-/// Steps with selections that visit more than the neighborhood of an element.
+/// Steps whose selections visit more than the neighborhood of single elements.
 const SELECTIONS: &[&str] = &[
     "TagVertices(name: \"new\", vertices: Grow(Grow(Random(count: 1000, seed: 1))))",
     "TagVertices(name: \"new\", vertices: Nearest(to: (0, 0, 0), count: 1000))",
@@ -187,8 +188,8 @@ enum Growth {
     TooLong,
 }
 
-/// Measures the growth of `work`, which gets a scene and returns whether it succeeded. `scene` creates a scene of the
-/// given size.
+/// Measures how the time of `work` grows with the size of the scene. `work` processes a scene, and returns whether it
+/// succeeded. `scene` creates a scene of the given size.
 fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growth {
     let time = |scene: &Scene| {
         let scene = scene.clone();
@@ -235,8 +236,8 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
     if first <= MAX_GROWTH {
         return Growth::By(first);
     }
-    // The time can jump once, at the size at which the data no longer fits in a cache, or at which memory is no longer
-    // reused. If the algorithm itself is too slow, the growth between two larger meshes is also too large.
+    // The time can jump once, at the size at which the data no longer fit in a cache, or at which memory is no longer
+    // reused. If the algorithm itself is too slow, the time also grows too much between two larger meshes.
     Growth::By(first.min(growth(&large, &scene(16 * n))))
 }
 
@@ -291,8 +292,9 @@ fn time_to_check(text: &str) -> Duration {
     times.min().expect("three times")
 }
 
-/// A quadratic search among 8000 parts is noticed, because it would take most of the time. The test fails only if a
-/// recipe with four times as many parts takes more than 8 times as long, so that it does not fail on a busy machine.
+/// The test would notice a quadratic search among 8000 parts, because the search would take most of the time. The test
+/// fails only if a recipe with four times as many parts takes more than 8 times as long, so that it does not fail on a
+/// busy machine.
 #[test]
 fn reading_and_checking_a_recipe_is_not_quadratic() {
     let failures = on_one_thread(|| {
@@ -377,7 +379,7 @@ fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
     assert_none(&failures);
 }
 
-/// The distance of surfaces of long, thin triangles that are not parallel to an axis.
+/// Measures the distance between two surfaces of long, thin triangles that are not parallel to an axis.
 #[test]
 #[ignore = "measures times for a few seconds"]
 fn distances_of_thin_triangles_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {

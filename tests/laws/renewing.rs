@@ -1,5 +1,5 @@
-//! Tests the update of the numbers in the expectations of a recipe. The test changes these numbers in each recipe in
-//! `scenes/`. The update must restore them and keep the rest of the text.
+//! Tests the function `update`, which writes current numbers into the expectations of a recipe. The test changes these
+//! numbers in each recipe in `scenes/`. The function must restore them, and keep the rest of the text.
 
 use engine::FileReader;
 use op::Files;

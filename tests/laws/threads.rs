@@ -1,4 +1,5 @@
-//! Thread pools of different sizes, to test that results do not depend on the number of threads.
+//! Provides thread pools of different sizes. With them, tests check that results do not depend on the number of
+//! threads.
 
 use std::sync::LazyLock;
 

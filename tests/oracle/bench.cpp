@@ -169,7 +169,8 @@ void run(char const* name, Cage const& cage, Sdc::SchemeType scheme, int levels,
 
 int main() {
     std::printf("OpenSubdiv, one thread; full: all connectivity of the last level, last: only the vertices of its faces\n");
-    // "last" stores what a viewer needs, and "full" stores what an editable mesh needs.
+    // "last" stores the vertices of the finest faces, as a viewer needs them. "full" stores all connectivity of the
+    // finest level, as an editable mesh needs it.
     for (bool full : {false, true}) {
         run("loop, icosahedron, 9 levels", icosahedron(), Sdc::SCHEME_LOOP, 9, full);
         run("loop, 100352 triangles, 3 levels", torus(224, 224, 1), Sdc::SCHEME_LOOP, 3, full);

@@ -29,7 +29,7 @@ using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
 
 namespace {
 
-/// N numbers with the two methods that OpenSubdiv requires of a value.
+/// A value of N numbers, with the two methods that OpenSubdiv needs to refine it.
 template <int N>
 struct Value {
     std::array<double, N> at{};

@@ -52,7 +52,7 @@ def by_xatlas(source):
     atlas.generate(xatlas.ChartOptions(), options)
     seconds = time.perf_counter() - start
     origins, triangles, uvs = atlas[0]
-    # xatlas makes the page larger than asked for if the charts do not fit.
+    # If the charts do not fit, xatlas makes the page larger than the requested size.
     uvs = uvs * [atlas.width, atlas.height] / max(atlas.width, atlas.height)
     return seconds, positions[origins][triangles], uvs[triangles]
 

@@ -1,5 +1,5 @@
-//! Draws the locations of errors in a scene: an overview of the objects with errors, and a close-up of the first
-//! location.
+//! Shows where the errors of a scene are: draws an overview of the objects with errors, and a close-up of the first
+//! error location.
 
 use std::collections::{HashMap, HashSet};
 
@@ -29,8 +29,8 @@ const EXPECTED: Color = Color::rgb(0x1b, 0x8e, 0x3d);
 const HALO: Color = Color([255, 255, 255, 220]);
 /// The opacity of marks where a surface hides them.
 const HIDDEN: f64 = 0.4;
-/// In the overview, dots mark the locations that are too small to see. If there are more locations than this maximum,
-/// the overview has no dots for them.
+/// The overview marks a location with a dot if the location is too small to see. If there are more locations than this
+/// maximum, there are no such dots.
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;
@@ -43,12 +43,13 @@ const TANGENT: f64 = 0.221_694_662_642_939_43;
 ///
 /// The left view shows all objects that contain a location of an error. If the object of a location is unknown, the
 /// left view shows the whole scene. The right view is a close-up of the first location, with the names of elements. If
-/// `locations` is empty, there is only the left view. `caption` is written below the left view. Returns `None` if the
-/// scene is empty.
+/// `locations` is empty, or the first location is so far away that distances overflow, there is only the left view.
+/// `caption` is written below the left view. Returns `None` if the scene is empty.
 ///
 /// # Errors
 ///
-/// Returns the errors of [`Shot::draw`].
+/// Returns [`PictureError::Budget`] if the instances of the scene need more than `budget` bytes. Also returns the
+/// errors of [`Shot::draw`].
 pub fn draw_error_locations(
     scene: &Scene,
     locations: &[ErrorLocation],
@@ -74,7 +75,7 @@ pub fn draw_error_locations(
         let size = size
             .max(1.2 * surroundings.mean_edge_length)
             .max(0.01 * radius);
-        // The close-up never shows more of the scene than the overview.
+        // The radius of the area that the close-up shows is at most the radius of the scene.
         let visible = (1.6 * size).min(radius);
         (
             middle,
@@ -172,7 +173,7 @@ fn style(has_edges: bool) -> Style {
     }
 }
 
-/// Properties of the surfaces at the locations of errors.
+/// Properties of the scene and of its faces at the error locations.
 #[derive(Default)]
 struct Surroundings {
     /// The number of faces of the scene.
@@ -276,8 +277,8 @@ fn is_face_location(
     })
 }
 
-/// Returns the preferred direction towards the camera. The preferred direction is between the normal of the surface and
-/// the default view.
+/// Returns the preferred direction from the first location to the camera. This direction is between the normal of the
+/// surface and the direction of the default view.
 fn preferred_direction(normal: DVec3, locations: &[ErrorLocation], center: DVec3) -> DVec3 {
     let default = DVec3::new(0.5, 0.4, 1.0).normalize();
     let middle = locations
@@ -300,8 +301,8 @@ fn angles(direction: DVec3) -> (f64, f64) {
     (azimuth, elevation)
 }
 
-/// Returns marks of the locations: lines that are `width` pixels wide, and dots with a diameter of `dot` pixels.
-/// Locations that are smaller than `dot_limit`, in scene units, also get a dot.
+/// Returns overlays that mark the locations: lines that are `width` pixels wide, dots with a diameter of `dot` pixels,
+/// and colored faces. Locations that are smaller than `dot_limit`, in scene units, also get a dot.
 fn marks(
     locations: &[ErrorLocation],
     surroundings: &Surroundings,
@@ -377,7 +378,7 @@ fn labels(locations: &[ErrorLocation], offset: DVec3) -> Vec<Label> {
     named.take(MAX_NAMES).map(label).collect()
 }
 
-/// Returns the names of the first locations, and the number of further names.
+/// Returns a text that lists the names of the first locations and says how many more names there are.
 fn names(locations: &[ErrorLocation]) -> String {
     const MAX_LISTED: usize = 8;
     let names = locations.iter().map(|location| location.name.as_str());

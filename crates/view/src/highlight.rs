@@ -14,7 +14,7 @@ const VERTEX_DIAMETER: f64 = 13.0;
 /// shorter side raised to this exponent. If the width were proportional to the shorter side itself, edges in small
 /// pictures would be too thin to see.
 const EDGE_POWER: f64 = 0.25;
-/// The exponent for the diameter of vertices, which is used like `EDGE_POWER` for the width of edges.
+/// The same exponent as `EDGE_POWER`, but for the diameter of vertices.
 const VERTEX_POWER: f64 = 0.4;
 
 /// The opacity of hidden edges.
@@ -34,8 +34,8 @@ fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     }
 }
 
-/// Returns the maximum diameter of `n` dots in pixels. With this diameter, the dots cover at most 15 % of a picture.
-/// The diameter is at least 2.5 pixels, even if the dots then cover more.
+/// Returns the maximum diameter of dots in pixels, for which `n` dots cover at most 15 % of a picture of this size. The
+/// result is at least 2.5, even if the dots then cover more.
 fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
     #[expect(
         clippy::cast_precision_loss,
@@ -46,7 +46,7 @@ fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
 }
 
 /// Returns a highlight of elements of an object. `width` is the width of edges and the diameter of vertices, in pixels.
-/// If `None`, the default for a picture of this `size` is used.
+/// If `width` is `None`, the default for a picture of this `size` is used.
 pub fn highlight(
     object: &str,
     elements: Elements,

@@ -71,7 +71,7 @@ pub enum Quantity {
 
 /// The values of a quantity for the meshes of a scene.
 pub struct Numbers {
-    /// The numbers of the elements of each mesh.
+    /// For each mesh that has the quantity, the numbers of its elements and their colors.
     pub colorings: Vec<Coloring>,
     pub(crate) scale: ColorScale,
 }
@@ -90,7 +90,8 @@ pub(crate) struct ColorScale {
     map: ColorMap,
     /// The numbers that the first and the last color represent.
     pub(crate) range: [f64; 2],
-    /// The distinct numbers of the scene, rounded down. They are used only with [`ColorMap::Classes`].
+    /// The distinct values in the scene, rounded down. [`ColorMap::Classes`] lists them in the legend; other color maps
+    /// do not use them.
     classes: Vec<f64>,
     /// Whether pictures have a legend.
     legend: bool,
@@ -272,7 +273,7 @@ impl Quantity {
             // The range is symmetric about 0. The range excludes the lowest and the highest eighth of the values.
             // Curvatures are very large at a few sharp corners and rims, and meshes often have many vertices there. If
             // all remaining values are 0, as on a flat surface with sharp edges, the range excludes only 2 % of the
-            // values at each end. If the values without these 2 % are all 0 too, the range excludes no values.
+            // values at each end. If the remaining 96 % are all 0 too, the range excludes no values.
             Self::MeanCurvature | Self::GaussianCurvature => {
                 let max = [8, 50, usize::MAX].map(|part| {
                     let n_outliers = values.len() / part;

@@ -62,8 +62,8 @@ impl Default for SheetStyle {
 }
 
 impl SheetStyle {
-    /// Returns the style for images of this size. For images whose shorter side is longer than 560 pixels, the captions
-    /// and gaps grow with this side. So the captions stay as readable as the images when the sheet is scaled down.
+    /// Returns the style for images of this size. If the shorter side of an image is longer than 560 pixels, captions
+    /// and gaps grow with this side. So captions stay readable when a sheet of large images is scaled down.
     #[must_use]
     pub fn scaled_to(self, [width, height]: [u32; 2]) -> Self {
         let side = width.min(height);
@@ -445,7 +445,8 @@ mod tests {
         let (dx, dy) = (with.width - without.width, with.height - without.height);
         assert_eq!(dy, 2 * style.font_size);
         assert!((20..70).contains(&dx), "{dx}");
-        // The headings only move the images. The text of the headings is above and to the left of the images.
+        // A sheet with headings contains the same images as a sheet without headings, but moved to the right and down.
+        // The text of the headings is above and to the left of the images.
         let is_text = |x, y| ![RED, WHITE].contains(&at(&with, x, y));
         for y in style.gap..without.height {
             for x in style.gap..without.width {

@@ -29,8 +29,8 @@ pub struct Shot<'a> {
     pub size: [u32; 2],
     /// The cameras. The views of the cameras are placed side by side.
     pub cameras: &'a [Camera],
-    /// The number of views in a row. If `None`, the number depends on the number of scenes: with several scenes, each
-    /// row shows all scenes from one camera. With one scene, a row shows the views of all cameras, but at most 4 views.
+    /// The number of views in a row. If `None` and there are several scenes, each row shows all scenes from one camera.
+    /// If `None` and there is one scene, a row shows the views of all cameras, but at most 4 views.
     pub columns: Option<u32>,
     /// Shading, lines and background.
     pub style: &'a Style,
@@ -80,7 +80,7 @@ impl<'s> Subject<'s> {
     }
 }
 
-/// The view and the color range that a scene needs.
+/// The data of a scene that determine a view and a color range in which the whole scene fits.
 ///
 /// With the [joined](Self::join) extents of several scenes, each scene can be [drawn](Shot::draw) separately. The
 /// pictures then have the same view and scale, and equal numbers have equal colors.
@@ -120,8 +120,8 @@ impl Shot<'_> {
         width * height * self.cameras.len() as u64 * u64::from(self.frames)
     }
 
-    /// Checks whether the budget is enough for the pixels of all images of this number of scenes. The scenes need not
-    /// be prepared for this check.
+    /// Checks whether the budget is enough for the pixels of all images of `n_scenes` scenes. The check does not need
+    /// the scenes themselves.
     ///
     /// # Errors
     ///
@@ -131,13 +131,13 @@ impl Shot<'_> {
         PictureError::check_budget(needed.saturating_add(pixel_bytes(self.size)), self.budget)
     }
 
-    /// Returns the size of all images of this number of scenes, in bytes.
+    /// Returns the size of all images of `n_scenes` scenes, in bytes.
     fn image_bytes(&self, n_scenes: usize) -> u64 {
         (4 * self.n_pixels()).saturating_mul(n_scenes as u64)
     }
 
-    /// Returns the extent of a scene. With the joined extents of several scenes, all scenes can be drawn at the same
-    /// scale, although only one of them is in memory at a time.
+    /// Returns the extent of a scene. To draw several scenes at the same scale with only one scene in memory at a time,
+    /// join their extents first.
     ///
     /// # Errors
     ///
@@ -152,8 +152,8 @@ impl Shot<'_> {
         Ok(Extent { points, scale })
     }
 
-    /// Draws scenes side by side at the same scale, each with its caption. Returns one image, or the images of a turn
-    /// of the camera.
+    /// Draws scenes side by side at the same scale, each with its caption. Returns one image or, if
+    /// [`frames`](Self::frames) is above 1, the images of an animation in which the camera turns around the scenes.
     ///
     /// A [`Camera::Fit`] shows the whole extent `within`. If `within` is `None`, the camera shows all scenes.
     ///
@@ -218,8 +218,8 @@ impl Shot<'_> {
             .collect()
     }
 
-    /// Draws all legends in the same corner, which is the corner where the legends cover the fewest pixels of the
-    /// scenes.
+    /// Draws the legend of each view. All legends are in the same corner: the corner in which they cover the fewest
+    /// pixels of the scenes.
     fn draw_legends(&self, all_views: &mut [Vec<(Image, &Subject)>]) {
         let scale = (f64::from(self.size[1]) / 720.0).clamp(0.5, 8.0);
         let background = self.style.background.srgb();
@@ -296,7 +296,7 @@ fn caption_size([_, height]: [u32; 2]) -> u32 {
     (height.saturating_mul(7) / 240).max(SheetStyle::default().font_size)
 }
 
-/// The progress of one of several views.
+/// Converts the progress of one view to the progress of all views.
 struct ViewProgress<'a> {
     parent: &'a dyn Progress,
     /// The number of completed views.

@@ -9,8 +9,8 @@ use scene::Scene;
 
 use crate::position_bits::bits;
 
-/// The number of directions on the whole sphere. A direction is tried only if it lies on the outer side of the surface
-/// and its elevation is allowed.
+/// The number of directions that are spread over the whole sphere. Directions that point behind the surface, or whose
+/// elevation is too large, are not tried.
 const DIRECTIONS: u32 = 200;
 
 /// The sine of 75 degrees, which is the maximum elevation of the camera. If the camera looks straight down, the upward
@@ -30,10 +30,10 @@ pub(crate) struct Target<'a> {
 
 /// Returns the direction from a target to the camera, as a unit vector.
 ///
-/// The candidates are directions on the outer side of the surface. A candidate is clear if no face hides the middle of
-/// the target from a camera in this direction. Returns the clear candidate that is nearest to the unit vector
-/// `preferred`. If no candidate is clear, the search is repeated for a camera at the distance `near` from the target.
-/// Faces behind this camera are ignored. If still no candidate is clear, returns `preferred`.
+/// The candidates are directions that point away from the outer side of the surface. A candidate is clear if no face
+/// hides the middle of the target from a camera in this direction. Returns the clear candidate that is nearest to the
+/// unit vector `preferred`. If no candidate is clear, the search is repeated for a camera at the distance `near` from
+/// the target. Faces behind this camera are ignored. If still no candidate is clear, returns `preferred`.
 pub(crate) fn clear_direction(
     scene: &Scene,
     target: &Target,
@@ -44,7 +44,7 @@ pub(crate) fn clear_direction(
     let directions = std::iter::once(preferred).chain(directions());
     let directions: Vec<DVec3> = directions.filter(is_outside).collect();
     let points: HashSet<[u64; 3]> = target.points.iter().map(|&p| bits(p)).collect();
-    // For each direction, the distance from the target to the nearest face.
+    // For each direction, the distance from the target to the nearest face in this direction.
     let mut distances = vec![f64::INFINITY; directions.len()];
     for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
         let n = mesh.domain_len(mesh::Domain::Face);

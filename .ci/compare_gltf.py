@@ -192,7 +192,7 @@ def rounded(value):
 
 
 def difference(a, b, place=""):
-    """The place and the values of the first difference."""
+    """Returns a text with the place and the values of the first difference; None if there is no difference."""
     if isinstance(a, dict) and isinstance(b, dict):
         pairs = [(key, a.get(key), b.get(key)) for key in sorted(a.keys() | b.keys())]
     elif isinstance(a, (list, tuple)) and isinstance(b, (list, tuple)) and len(a) == len(b):

@@ -21,8 +21,8 @@ const KNOWN: [&str; 5] = [
     ", found patches",
 ];
 
-/// The names of losses that `check` cannot predict, because they depend on the values in the meshes: merged coincident
-/// vertices (`position`), and meshes that lose all faces (`mesh`).
+/// The names of losses that `check` cannot predict, because they depend on the values in the meshes. A loss of
+/// `position` occurs, for example, if vertices coincide, and a loss of `mesh` if a mesh loses all faces.
 const OF_VALUES: [&str; 2] = ["position", "mesh"];
 
 /// Returns how a run disagrees with the forecast of its recipe.

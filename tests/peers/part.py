@@ -30,7 +30,7 @@ def fillet(center, radius, start, end):
 
 
 def profile():
-    """The profile from the lower edge of the ring with holes around the rim to its upper edge, and the rest."""
+    """Returns the two parts of the profile beside the ring with the holes: the rim, and the hub with the bore."""
     rim = [(OUTER, LOW), (60, LOW), (60, 4), (58, 4), (58, 6), (60, 6), (60, HIGH), (OUTER, HIGH)]
     rim = [p for a, b in zip(rim, rim[1:]) for p in line(a, b)] + [rim[-1]]
     hub = line((INNER, HIGH), (34, HIGH)) + fillet((34, 14), 4, 270, 180) + line((30, 14), (30, 24))
@@ -40,7 +40,7 @@ def profile():
 
 
 def part():
-    """Returns the positions and quadrilaterals of the part, with equal points listed several times."""
+    """Returns the quadrilaterals of the part. Each has four positions, so common corners occur several times."""
     quads = []
 
     def sheet(rows):
@@ -92,7 +92,7 @@ def read(path):
 
 
 def sharp_edges(positions, triangles, above):
-    """The ends of the edges whose dihedral angle is above an angle in degrees."""
+    """Returns the ends of all edges whose dihedral angle is larger than `above`, in degrees."""
     corners = positions[triangles]
     normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= numpy.linalg.norm(normals, axis=1)[:, None]
@@ -105,7 +105,7 @@ def sharp_edges(positions, triangles, above):
 
 
 def farthest(segments, others, samples=8):
-    """The largest distance from points on `segments` to the nearest of the `others`."""
+    """Returns the largest distance from a point on `segments` to the nearest segment of `others`."""
     t = numpy.linspace(0, 1, samples)[None, :, None]
     points = (segments[:, :1] * (1 - t) + segments[:, 1:] * t).reshape(-1, 3)
     start, along = others[:, 0], others[:, 1] - others[:, 0]

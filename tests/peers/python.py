@@ -15,7 +15,7 @@ FACES = 62_500
 
 
 class Clock:
-    """Keeps the lowest elapsed time and the lowest time of all processors together, for each step of several runs."""
+    """Measures steps of several runs. For each step, keeps the lowest elapsed time and the lowest processor time."""
 
     def __init__(self):
         self.best = {}
@@ -54,7 +54,7 @@ def by_trimesh(source, target, clock):
 
 
 def quality(small, original):
-    """The distances of the simplified mesh to the original, and the mean smallest angle of its triangles."""
+    """Describes the distances of the simplified mesh to the original, and the mean of its smallest angles."""
     scene = mw.Scene().with_object(small, name="small").with_object(original, name="original")
     far = scene.measure(of=choice.Distance(to="original"), name="far", on="small")["small"].attributes["far"]
     angles = small.measure(of="MinAngle", name="angle").attributes["angle"]

@@ -36,7 +36,7 @@ def write(path, positions, triangles):
 
 
 def run(program, folder, steps):
-    """Runs a recipe and returns the milliseconds of each step by its operation."""
+    """Runs a recipe. Returns a dictionary from the operation of each step to its time in milliseconds."""
     recipe = folder / "recipe.ron"
     recipe.write_text(f"(recipe: 1, steps: [{steps}])")
     command = [program, "run", recipe, "--out", folder, "--no-cache", "--format", "json"]

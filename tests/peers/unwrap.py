@@ -97,7 +97,7 @@ def measure(positions, uvs):
 
 
 def quantile(values, areas, share):
-    """Returns the value that the given share of the area does not exceed."""
+    """Returns the value v for which the triangles with values up to v have the given share of the area."""
     order = numpy.argsort(values)
     sums = numpy.cumsum(areas[order])
     return values[order][numpy.searchsorted(sums, share * sums[-1])]

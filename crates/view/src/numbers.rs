@@ -71,7 +71,7 @@ pub enum Quantity {
 
 /// The values of a quantity for the meshes of a scene.
 pub struct Numbers {
-    /// For each mesh that has the quantity, the numbers of its elements and their colors.
+    /// For each mesh that has the quantity, the numbers of its elements and the mapping to colors.
     pub colorings: Vec<Coloring>,
     pub(crate) scale: ColorScale,
 }

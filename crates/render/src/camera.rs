@@ -171,7 +171,7 @@ pub enum Side {
     /// From the front, but turned by 30 degrees towards the side where x is large, and raised by 22 degrees.
     #[default]
     ThreeQuarter,
-    /// From the direction with these two angles.
+    /// From the direction that the two angles give.
     Angles {
         /// The angle from the front towards the right, in degrees.
         azimuth: f64,
@@ -222,10 +222,10 @@ const DEFAULT_ANGLE: f64 = 25.0;
 const ORTHOGRAPHIC_ANGLE: f64 = 30.0;
 
 impl Up {
-    /// If this is `Auto`, returns the upward axis of a scene with these points. Otherwise returns `self`.
+    /// For `Auto`, returns the upward axis of a scene with these points. For the other axes, returns `self`.
     fn resolved(self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
-        /// A scene stands on a plane if the distance of its lowest point from the plane is at most this fraction of the
-        /// size of the scene, and its highest point is farther away.
+        /// A scene stands on a plane if its lowest point is nearer to the plane than this fraction of the size of the
+        /// scene, and its highest point is farther above the plane.
         const TOLERANCE: f64 = 1e-3;
         if self != Self::Auto {
             return self;
@@ -271,8 +271,8 @@ impl Side {
         }
     }
 
-    /// Returns three directions: to the right in the picture, upwards in the picture, and from the scene towards the
-    /// camera.
+    /// Returns three directions in the scene: the directions that point to the right and upwards in the picture, and
+    /// the direction towards the camera.
     fn axes(self, up: Up) -> [DVec3; 3] {
         let [right, up, front] = up.axes();
         let [azimuth, elevation] = self.angles();
@@ -283,7 +283,7 @@ impl Side {
     }
 }
 
-/// A camera with the size of its picture. It projects points of the scene to pixels.
+/// A camera with the size of its picture, which projects points of the scene to pixels.
 ///
 /// Pixel coordinates start at the upper left corner of the picture and grow to the right and downwards.
 #[derive(Clone, Copy, Debug)]
@@ -313,7 +313,7 @@ pub struct ScreenPoint {
 }
 
 impl View {
-    /// Creates the view of these points in a picture of this size.
+    /// Creates the view of a scene with these points, in a picture of this size.
     ///
     /// # Errors
     ///

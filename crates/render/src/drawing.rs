@@ -28,8 +28,8 @@ pub struct Part<'a> {
     pub points: Cow<'a, [DVec3]>,
     /// The indices of the points of each triangle, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// For each triangle, the indices of its three corners in the lists with one value for each corner, such as
-    /// [`Channel::Corner`]. Empty if the part has no lists with values of corners.
+    /// For each triangle, three indices into lists that have one value for each corner, for example
+    /// [`Channel::Corner`]. Empty if the part has no such list.
     pub corners: Vec<[u32; 3]>,
     /// For each triangle, the index of the face that it belongs to, in ascending order. The list is empty if each
     /// triangle is a face of its own.
@@ -130,7 +130,7 @@ pub struct Label {
 pub struct Drawing<'a> {
     /// The parts. Triangles and faces are counted through all parts, in this order.
     pub parts: Vec<Part<'a>>,
-    /// Lines and points. Later ones are drawn on top.
+    /// Lines and points. Later entries are drawn on top of earlier entries.
     pub lines: Vec<Line>,
     /// Labels. The rasterizer does not draw labels: it only returns their positions and whether they are hidden.
     pub labels: Vec<Label>,

@@ -50,8 +50,8 @@ impl Heights {
     }
 
     /// Returns the height at texture coordinates with v upwards, interpolated between the centers of the four nearest
-    /// pixels. Outside of the range from 0 to 1, the image is repeated, but there is no interpolation across its
-    /// border. Returns 0 for coordinates that are not finite.
+    /// pixels. Outside of the range from 0 to 1, the image is repeated, but heights are not interpolated across the
+    /// border of the image. Returns 0 for coordinates that are not finite.
     pub fn at(&self, uv: DVec2) -> f64 {
         if !uv.is_finite() {
             return 0.0;
@@ -64,7 +64,7 @@ impl Heights {
     }
 }
 
-/// Returns the two pixels of a row or column around a coordinate, and the weight of the second one.
+/// Returns the indices of the two pixels of a row or column around a coordinate, and the weight of the second pixel.
 fn pixels(at: f64, n: usize) -> (usize, usize, f64) {
     let at = if (0.0..=1.0).contains(&at) {
         at

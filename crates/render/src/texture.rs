@@ -1,7 +1,7 @@
 //! Textures with mipmaps.
 //!
-//! Where colors are averaged, transparent pixels have less weight than opaque ones, so that the color of invisible
-//! pixels hardly bleeds into visible ones. If the alpha of a texture is ignored, all its pixels have the same weight.
+//! Where colors are averaged, transparent pixels have less weight than opaque pixels, so that the color of invisible
+//! pixels hardly affects visible pixels. If the alpha of a texture is ignored, all its pixels have the same weight.
 
 use std::sync::Arc;
 
@@ -157,10 +157,10 @@ impl Texture {
         self.scale_and_rotate(DVec2::new(uv.x, 1.0 - uv.y)) + DVec2::from(self.transform.offset)
     }
 
-    /// Returns a mipmap level as graphics cards store it. Its width and height are those of the image, divided by 2 to
-    /// the power of `level` and rounded down, but at least 1. Alpha is the fraction of a pixel that the surface covers.
-    /// The colors are multiplied by alpha, so that the color of invisible pixels hardly bleeds into visible ones when
-    /// pixels are interpolated.
+    /// Returns a mipmap level as graphics cards store it. The width and height of the level are the width and height of
+    /// the image, divided by 2 to the power of `level` and rounded down, but at least 1. Alpha is the fraction of a
+    /// pixel that the surface covers. The colors are multiplied by alpha, so that the color of invisible pixels hardly
+    /// affects visible pixels when pixels are interpolated.
     pub fn level(&self, level: u32) -> Image {
         let [width, height] = self
             .size()

@@ -1,7 +1,6 @@
 //! Tests that rendering needs no more memory than `bytes_needed` returns, for several drawings.
 //!
-//! This binary has only one test, because the allocations of other tests that run at the same time would also be
-//! counted.
+//! This test binary has only one test, because memory that other tests allocate at the same time would also be counted.
 
 use geometry::shapes;
 use mesh::DVec3;

@@ -27,11 +27,11 @@
 //! the half-edges join(h) come after all other edges, in order of h.
 //!
 //! Face f keeps its id, edge e becomes face F + e (F is the number of old faces), and the faces of vertices follow in
-//! order of the vertices. Isolated vertices have no faces. These vertices are kept, and their ids come after the ids of
-//! all other vertices. An inner vertex of valence 2 also has no face, because the face would have two corners. The two
-//! outgoing half-edges h and k of an inner vertex of valence 2 share one new edge. If h has a lower id than k, the
-//! first half-edge of the shared edge is across(h), and across(k) is the twin of across(h). So each inner vertex of
-//! valence 2 lowers the ids of all later edges by one.
+//! order of the vertices. Isolated vertices have no faces. They are kept, and the ids of isolated vertices come after
+//! the ids of all other vertices. An inner vertex of valence 2 also has no face, because the face would have two
+//! corners. The two outgoing half-edges h and k of an inner vertex of valence 2 share one new edge. If h has a lower id
+//! than k, the first half-edge of the shared edge is across(h), and across(k) is the twin of across(h). So each inner
+//! vertex of valence 2 lowers the ids of all later edges by one.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

@@ -15,8 +15,9 @@
 //! ```
 //!
 //! Each vertex stores one outgoing half-edge. An old vertex stores the first part of the half-edge that it stored
-//! before. This part is on the boundary if the old half-edge is. A new vertex stores the second part of one of the two
-//! half-edges of the old edge. If the old edge is on the boundary, this is the second part of the boundary half-edge.
+//! before. If the old half-edge is on the boundary, its first part is on the boundary, too. A new vertex stores the
+//! second part of one of the two half-edges of the old edge: of the boundary half-edge, if the old edge is on the
+//! boundary.
 //!
 //! The four half-edges and the vertex of each old edge are computed from the old mesh only, so all old edges can
 //! be processed in parallel. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop
@@ -47,8 +48,8 @@ pub(crate) fn on_edge(mesh: &Mesh, h: HalfEdgeId) -> VertexId {
     VertexId::new(mesh.n_vertices() + h.edge().index())
 }
 
-/// Returns the location, in the old mesh, of the corner at the origin of new half-edge `i`. This half-edge must be a
-/// part of an old half-edge.
+/// New half-edge `i` must be a part of an old half-edge. Returns the location, in the old mesh, of the corner at its
+/// origin.
 pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
     // An old edge has four parts: parts 0 and 2 belong to its first half-edge, parts 1 and 3 to its second half-edge.
     // Part 0 starts at the origin of the first half-edge, and part 3 starts at the origin of the second half-edge.
@@ -65,7 +66,7 @@ pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
 /// The next half-edge of each of the two parts of a half-edge, and the face of each part.
 pub(crate) type PartLinks = ([HalfEdgeId; 2], [FaceId; 2]);
 
-/// Slices of the arrays of the next level. They hold all elements that come after the elements on old edges.
+/// The part of the arrays of the next level that holds all elements after the elements on old edges.
 pub(crate) struct AddedArrays<'n> {
     pub(crate) halves: Arrays<'n>,
     /// The half-edges of the vertices that come after the new vertices on old edges.

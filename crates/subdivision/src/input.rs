@@ -9,7 +9,8 @@ use crate::parallel::any;
 use crate::rules::Scheme;
 
 /// The largest absolute value of a coordinate that can be subdivided. Each new position is a weighted sum of fewer than
-/// 2^32 old positions, and a position can occur several times in this sum. With this limit, such sums stay finite.
+/// 2^32 old positions, in which a position can occur several times. With this limit for coordinates, the sum stays
+/// finite.
 pub const MAX_COORDINATE: f64 = 1e290;
 
 /// Returns the mesh without dead (deleted) elements. A mesh that has no dead elements (a dense mesh) is borrowed, not

@@ -1,7 +1,7 @@
-//! Faces with many corners. A new corner at the center of such a face, or at a Doo-Sabin point in it, depends on all
-//! corners of the face. If the sum over all old corners were computed again for each new corner, the time would grow
-//! with the square of the number of corners. Instead, three sums over all corners are computed once. Every new corner
-//! is a weighted sum of these three sums and of one old corner.
+//! Faces with many corners. The value at the center of a face, or at a Doo-Sabin point in it, depends on all corners of
+//! the face. If the sum over all corners were computed again for each Doo-Sabin point, the time would grow with the
+//! square of the number of corners. Instead, three sums over all corners are computed once. Every new value is a
+//! weighted sum of the three sums and of the value at one corner.
 //!
 //! Let x(0), .., x(n - 1) be the values at the n corners of a face, and let a be 2π/n:
 //!
@@ -33,7 +33,7 @@ const SUMS: usize = 3;
 #[derive(Default)]
 pub(crate) struct LargeFaces {
     faces: Vec<FaceId>,
-    /// For each half-edge of these faces: the index of the face in `faces`, the position of the half-edge in the face,
+    /// For each half-edge of a large face: the index of the face in `faces`, the position of the half-edge in the face,
     /// and the number of corners of the face.
     corners: HashMap<HalfEdgeId, (usize, usize, usize)>,
 }

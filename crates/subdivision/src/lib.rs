@@ -1,4 +1,4 @@
-//! Subdivision surfaces: refine a coarse mesh into ever finer ones.
+//! Subdivision surfaces: each level refines a coarse mesh into a finer mesh, which converges to a surface.
 //!
 //! Each level adds vertices on edges, in faces, or both, and connects the vertices into smaller faces. Most smooth
 //! schemes also move each old vertex to a weighted mean of its neighborhood. Butterfly keeps the old vertices in place,
@@ -49,11 +49,11 @@
 //!        0     1     2     3     4     5     6     7     8   level
 //! ```
 //!
-//! `+` is a torus of regular valence, and `o` is an icosahedron. `*` is a place in the diagram where `+` and `o`
-//! coincide. Each level halves the edges. On the torus, the distance is quadratic in the edge length, so each level
-//! divides the distance by four. Around the vertices of valence 5 of the icosahedron, each level scales the surface by
-//! the subdominant eigenvalue 3/8 + cos(2π/5)/4 = 0.452. After the first levels, each level also scales the distance to
-//! the limit position by this eigenvalue.
+//! `+` is a torus of regular valence, and `o` is an icosahedron. `*` stands for `+` and `o` at the same place. Each
+//! level halves the edges. On the torus, the distance is quadratic in the edge length, so each level divides the
+//! distance by four. Around the vertices of valence 5 of the icosahedron, each level scales the surface by the
+//! subdominant eigenvalue 3/8 + cos(2π/5)/4 = 0.452. After the first levels, each level also scales the distance from a
+//! vertex to its limit position by this eigenvalue.
 //!
 //! # Examples
 //!

@@ -53,7 +53,7 @@ use pieces::{Pieces, SmoothedElements};
 use smoothed::LocalMasks;
 
 /// Subdivides some of the faces of a mesh `levels` times. The first level refines the chosen faces. Each further level
-/// refines the parts into which the previous level has cut these faces.
+/// refines the parts into which the previous level has cut the chosen faces.
 ///
 /// `faces` has one flag for each face, which is true if the face is chosen. Supports Loop, Catmull-Clark and midpoint
 /// subdivision.
@@ -77,8 +77,9 @@ use smoothed::LocalMasks;
 /// edges inside faces have the value zero. Sharpness decreases where positions are smoothed and is kept
 /// elsewhere. Normals are dropped.
 ///
-/// If the result is refined again, triangles that were cut in two are treated as ordinary triangles. So each call can
-/// halve angles once more. Within one call, angles are halved at most once, even if the call computes several levels.
+/// If the result is refined again, triangles that were cut in two are treated as ordinary triangles. So each call of
+/// this function can halve angles once more. Within one call, angles are halved at most once, even if the call computes
+/// several levels.
 ///
 /// If `levels` is 0 or no face is chosen, returns the compacted mesh.
 ///
@@ -160,8 +161,8 @@ fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Me
     })
 }
 
-/// Estimates how much the levels add to the progress meter. Ignores the faces around the chosen faces, although these
-/// faces can also be cut.
+/// Estimates how much the levels add to the progress meter. Counts only parts of chosen faces, although faces around
+/// the chosen faces can also be cut.
 fn work(mesh: &Mesh, chosen: &[bool], levels: u32) -> u64 {
     let kept = (mesh.n_vertices() + mesh.n_faces()) as u64;
     let n_chosen = chosen.iter().filter(|&&c| c).count() as u64;

@@ -1,5 +1,5 @@
-//! Two slow and simple implementations of one level of Loop subdivision. The tests compare their results with those of
-//! the crate.
+//! Two slow and simple implementations of one level of Loop subdivision. Tests compare their results with the results
+//! of the crate.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,9 +7,10 @@ use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
 use crate::fixtures::{corners, number};
 
-/// Computes a level by the method that is taught in courses. The new positions are computed first. Then every edge is
-/// split in the middle, and every new edge between an old and a new vertex is flipped. At the end, the vertices are
-/// moved to the new positions. Vertices have the same ids as in [`crate::subdivide`]; edges and faces do not.
+/// Computes a level by the method that is taught in courses. The new positions are computed first. Then every old edge
+/// is split in the middle, and every new edge between an old vertex and a new vertex is flipped. At the end, the
+/// vertices are moved to the new positions. Vertices have the same ids as in [`crate::subdivide`]; edges and faces do
+/// not.
 pub(crate) fn by_splits_and_flips(old: &Mesh) -> Mesh {
     let positions = old.vertices().map(|v| moved(old, v));
     let positions: Vec<DVec3> = positions
@@ -21,8 +22,8 @@ pub(crate) fn by_splits_and_flips(old: &Mesh) -> Mesh {
     for e in old.edges() {
         let n_edges = mesh.n_edges();
         mesh.split_edge(e, 0.5).unwrap();
-        // The split cuts e in half. One half keeps the id of e, and the other half is the first new edge. This new edge
-        // is skipped, because it does not cut a face.
+        // The split cuts e in half. One half keeps the id of e, and the other half is the first of the new edges. The
+        // loop skips this half, because it does not cut a face.
         cuts.extend((n_edges + 1..mesh.n_edges()).map(EdgeId::new));
     }
     let is_old = |v: VertexId| old.has_vertex(v);

@@ -13,7 +13,7 @@ pub struct Rules {
     pub boundary: Boundary,
     /// How the sharpness of creases decreases from level to level.
     pub creasing: Creasing,
-    /// How corner values such as texture coordinates are smoothed.
+    /// How corner values, for example texture coordinates, are smoothed.
     pub face_varying: FaceVarying,
 }
 

@@ -195,7 +195,8 @@ impl<N: Count> Size<N> {
     ///
     /// # Errors
     ///
-    /// Returns [`TooLarge`] with the highest of these levels that fits, if any.
+    /// Returns [`TooLarge`] if the mesh after the last level does not fit. The error contains the highest of the given
+    /// levels that fits, if there is one.
     pub fn check(self, scheme: Scheme, levels: Range<u32>, budget: u64) -> Result<(), TooLarge> {
         let mut size = self;
         let mut fits = None;

@@ -3,8 +3,8 @@
 //! The old mesh has V vertices, E edges and F faces. Half-edge h runs from a to b and has face f, whose opposite corner
 //! is c; its twin t has face g. Every face gets the vertex V + f at its center and three spokes, the edges from its
 //! corners to the center. Every inner edge is flipped, so that it connects two centers. Edges keep their ids. The spoke
-//! of the k-th corner of face f is edge E + 3f + k, and spoke(h) is the half-edge of that spoke that starts at the
-//! origin of h. T(h), the k-th triangle of face f, is 3f + k:
+//! of the k-th corner of face f is edge E + 3f + k. If the corner is at the origin of h, spoke(h) is the half-edge of
+//! this spoke that starts there. T(h), the k-th triangle of face f, is 3f + k:
 //!
 //! ```text
 //!              c                           c
@@ -32,9 +32,9 @@
 //!      even level          odd level
 //! ```
 //!
-//! The two edges of the triangle that are not on the boundary are flipped. Of the two flipped edges, the edge that is
-//! nearer to x ends at x instead of the center, and the edge that is nearer to y ends at y. After two levels, every old
-//! edge, including every boundary edge, has become three edges. Source: Kobbelt, "√3-Subdivision", 2000.
+//! The two edges of the triangle that are not on the boundary are flipped. Because the triangle has no center, the
+//! flipped edge that is nearer to x ends at x, and the flipped edge that is nearer to y ends at y. After two levels,
+//! every old edge, including every boundary edge, has become three edges. Source: Kobbelt, "√3-Subdivision", 2000.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -64,7 +64,7 @@ pub(crate) enum Source {
     Near(HalfEdgeId),
 }
 
-/// What happens to the edge of a half-edge with a face.
+/// The change of an old edge on this level.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Side {
     /// The edge is flipped.
@@ -116,7 +116,7 @@ impl<'a> Sqrt3<'a> {
         }
     }
 
-    /// Returns what happens to the edge of `h`, which must have a face.
+    /// Returns how this level changes the edge of `h`. `h` must have a face.
     #[inline]
     fn side(&self, h: HalfEdgeId) -> Side {
         if self.mesh.face(h.twin()).is_some() {

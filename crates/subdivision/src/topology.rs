@@ -28,8 +28,8 @@ pub(crate) trait Topology: Sync {
     fn face(&self, i: usize) -> Option<usize>;
 
     /// If edge `i` of the next level is the part at one end of an old edge, returns the half-edge of the old edge that
-    /// starts at this end. The default is for schemes that split each edge in two and assign ids to these parts before
-    /// all other edges.
+    /// starts at this end. The default is for schemes that split each edge in two, and in which the parts of old edges
+    /// have lower ids than all other edges.
     fn half(&self, i: usize) -> Option<HalfEdgeId> {
         self.edge(i).map(|_| HalfEdgeId::new(i))
     }
@@ -75,7 +75,7 @@ pub(crate) fn place_near_origin(mesh: &Mesh, h: HalfEdgeId, n: u32) -> Place {
 }
 
 /// Calls `add` with each old corner on which the value of the new corner at `place` depends, and with its weight. All
-/// these old corners belong to one face. The value is their weighted mean.
+/// old corners that are passed to `add` belong to one face. The value is their weighted mean.
 pub(crate) fn add_linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f64)) {
     match place {
         Place::At(h) => add(h.index(), 1.0),

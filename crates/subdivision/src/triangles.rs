@@ -19,8 +19,8 @@
 //!         first(h0)  second(h0)
 //! ```
 //!
-//! The six new half-edges inside each old face and its four new faces are computed from the old mesh only, so all old
-//! faces can be processed in parallel.
+//! For each old face, six new half-edges and four new faces are computed, from the old mesh only. So all old faces can
+//! be processed in parallel.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh};
 use progress::{Cancelled, Meter};

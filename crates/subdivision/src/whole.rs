@@ -31,7 +31,7 @@ use crate::size::Size;
 /// Sharpness ([`mesh::CREASE`], [`mesh::VERTEX_SHARPNESS`]) shapes Loop and Catmull-Clark surfaces and decreases with
 /// each level; other schemes copy it unchanged.
 ///
-/// The worker threads call `progress`, possibly at the same time.
+/// Worker threads call `progress`, possibly several at the same time.
 ///
 /// # Errors
 ///
@@ -50,8 +50,8 @@ pub fn subdivide(
 
 /// Computes a range of levels, starting from this mesh. Fails if the result would take more than `budget` bytes.
 ///
-/// `levels.start` is the number of levels that were applied to this mesh before; 0 for a coarse mesh. This number
-/// matters for [`Scheme::Sqrt3`](crate::Scheme::Sqrt3), whose even and odd levels differ.
+/// `levels.start` is the number of levels that were applied to this mesh before; 0 for a coarse mesh. The index of a
+/// level matters for [`Scheme::Sqrt3`](crate::Scheme::Sqrt3), whose even and odd levels differ.
 ///
 /// # Errors
 ///

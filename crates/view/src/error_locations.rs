@@ -19,7 +19,7 @@ use crate::viewpoint::{Target, clear_direction};
 
 /// The size of each of the two views, in pixels.
 const SIZE: [u32; 2] = [720, 540];
-/// The color of surfaces. It is pale, so that marks are visible on surfaces.
+/// The color of surfaces: a pale color on which marks are visible.
 const SURFACE: Color = Color::rgb(0xcf, 0xd8, 0xe3);
 /// The color of the locations of errors.
 const ERROR: Color = Color::rgb(0xd6, 0x20, 0x28);

@@ -84,8 +84,7 @@ mod tests {
         let rounded = |x: f64| (x * 10.0).round() / 10.0;
         let edges = sizes.map(|size| rounded(scaled(EDGE_WIDTH, EDGE_POWER, size)));
         let vertices = sizes.map(|size| rounded(scaled(VERTEX_DIAMETER, VERTEX_POWER, size)));
-        // If these numbers change, the documentation of the operation `Picture` must be updated, because it states
-        // them.
+        // The documentation of the operation `Picture` states these numbers. If they change, update the documentation.
         assert_eq!(edges, [2.2, 2.8, 3.4, 4.0, 8.0]);
         assert_eq!(vertices, [5.2, 7.5, 9.9, 13.0, 26.0]);
         assert_eq!(max_diameter(1, sizes[0]).min(vertices[0]), vertices[0]);

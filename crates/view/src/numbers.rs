@@ -182,8 +182,8 @@ pub fn existing_attributes(mut names: Vec<&str>) -> String {
 }
 
 impl Quantity {
-    /// Returns the quantities that can be shown for a scene without further input. These are all quantities that are
-    /// computed from one mesh, and all attributes that a mesh of the scene has.
+    /// Returns the quantities that can be shown for a scene without further input. The result contains all quantities
+    /// that are computed from one mesh, and all attributes of the meshes of the scene.
     pub fn of_scene(scene: &Scene) -> Vec<Self> {
         let mut quantities = vec![
             Self::MeanCurvature,
@@ -203,9 +203,9 @@ impl Quantity {
         quantities
     }
 
-    /// Returns the kind of elements that the quantity belongs to, and one number for each of these elements, in the
-    /// order of their indices. The number of an element without a value is NaN. Returns `None` if the mesh does not
-    /// have this quantity.
+    /// Returns the kind of elements that have the quantity, and one number for each element of this kind, in the order
+    /// of the indices. The number of an element without a value is NaN. Returns `None` if the mesh does not have this
+    /// quantity.
     fn values(&self, mesh: &Mesh, targets: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
         let each = |domain, value: &dyn Fn(usize) -> Option<f64>| {
             let all = 0..mesh.domain_len(domain);
@@ -336,7 +336,7 @@ fn attribute(mesh: &Mesh, name: &str, component: Option<u32>) -> Option<(Domain,
 }
 
 impl ColorScale {
-    /// Extends the range and the classes to include those of another scene.
+    /// Extends the range and the classes, so that they include the range and the classes of another scene.
     pub(crate) fn join(&mut self, other: &Self) {
         let [low, high] = other.range;
         if low < self.range[0] {

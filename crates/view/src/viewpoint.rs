@@ -19,8 +19,8 @@ const MAX_ELEVATION: f64 = 0.965_925_826_289_068_3;
 
 /// A location in a scene that the camera looks at.
 pub(crate) struct Target<'a> {
-    /// The points of the location. Faces that touch one of these points are ignored in the search for faces that hide
-    /// the location.
+    /// The points of the location. Faces that have a corner at one of these points do not count as faces that hide the
+    /// location.
     pub(crate) points: &'a [DVec3],
     /// The middle of the points.
     pub(crate) middle: DVec3,

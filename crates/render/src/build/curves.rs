@@ -14,7 +14,7 @@ use crate::drawing::{Channel, NO_FACE, Part, Surface};
 use crate::figure::construction;
 use crate::style::Lines;
 
-/// A patch is drawn as a grid of cells. This is the number of cells along each side of the grid.
+/// The number of cells along each side of the grid of cells as which a patch is drawn.
 const CELLS: u32 = 24;
 /// The number of line segments into which a curve is divided for drawing.
 const SEGMENTS: u32 = 200;
@@ -64,8 +64,8 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Adds the edges of a tessellated surface. The edges must be added before the faces of the surface, because
-    /// `n_faces` is taken as the index of the first of these faces.
+    /// Adds the edges of a tessellated surface. The edges must be added before the faces of the surface, because the
+    /// function assumes that the first face of the surface will have the index `n_faces`.
     fn grid(&mut self, surface: &Tessellation, lines: &Lines) {
         let mut edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
         for (f, corners) in (self.n_faces..).zip(surface.faces()) {

@@ -17,7 +17,7 @@ use crate::drawing::{Drawing, Label, Line};
 use crate::style::Style;
 use crate::texture::TextureCache;
 
-/// What a picture shows in addition to the objects of a scene.
+/// Elements and texts that a picture shows in addition to the objects of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Overlays {
     /// Highlighted elements. Later highlights are drawn on top.
@@ -100,7 +100,7 @@ pub enum Elements {
     Faces(Vec<FaceId>),
 }
 
-/// A quantity of the elements of a mesh that is shown as colors, such as the curvature at each vertex.
+/// Numbers of the elements of a mesh that are shown as colors, for example the curvature at each vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coloring {
     /// The name of the object, which must be a mesh.
@@ -131,7 +131,7 @@ pub const PALETTE: [Color; 6] = [
 /// `images` returns `None`, or the bytes are not a PNG or JPEG file, the surface is drawn without this texture, and a
 /// message gives the path and the reason.
 ///
-/// The drawing uses these properties of materials: base color and alpha with their texture, roughness, emission,
+/// Of each material, the drawing uses the base color and alpha with their texture, the roughness, the emission,
 /// `unlit`, and `double_sided`.
 ///
 /// # Errors

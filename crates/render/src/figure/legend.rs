@@ -126,7 +126,7 @@ fn placed(legend: &Legend, corner: Corner, image_size: DVec2) -> [DVec2; 2] {
     [at.round(), size]
 }
 
-/// Returns a figure that contains only the legend. The figure is as large as the legend.
+/// Returns a figure that contains only the legend. The figure has the size of the legend.
 pub fn legend_figure(legend: &Legend) -> Svg {
     let size = legend_size(legend);
     let mut svg = Svg::new(size.x, size.y);

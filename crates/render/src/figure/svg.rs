@@ -357,7 +357,7 @@ fn coordinates(points: &[DVec2], separator: &str) -> String {
     points.collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the element of a text with these attributes.
+/// Returns the SVG element of a text, with these attributes.
 fn text_element(position: DVec2, text: &Text, attributes: &str) -> String {
     let anchor = match text.anchor {
         Anchor::Start => "",

@@ -1,7 +1,7 @@
 //! Renders a drawing to pixels.
 //!
 //! The picture is divided into tiles. Triangles and lines are sorted into the tiles that they touch. Then each tile is
-//! drawn and shaded independently of all others, so that any number of threads gives the same bytes.
+//! drawn and shaded independently of all other tiles, so that any number of threads gives the same bytes.
 //!
 //! ```text
 //!   project    projects points to a grid of 1/256 pixel, and clips triangles

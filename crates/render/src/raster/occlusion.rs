@@ -164,13 +164,13 @@ impl Occlusion {
 }
 
 /// If all edges of a triangle are shorter than this number of texels, only the corners of the triangle are drawn. All
-/// points of a triangle with such short edges are within half a texel of the nearest corner. Therefore the corners
-/// cover all texels whose middles the triangle covers.
+/// points of such a small triangle are within half a texel of the nearest corner. Therefore the corners cover all
+/// texels whose middles the triangle covers.
 const SMALL_EDGE: f64 = 0.85;
 
 /// Returns the triangles of a part that are drawn into maps, and whether the points of the part are drawn too.
-/// Triangles whose edges are all shorter than `length` are left out, and the points of the part are drawn instead of
-/// these triangles. If the part has transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
+/// Triangles whose edges are all shorter than `length` are left out, because the points of the part are drawn instead.
+/// If the part has transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
 fn triangles_to_draw<'a>(part: &'a Part, length: f64) -> (Cow<'a, [[u32; 3]]>, bool) {
     let has_transparent = part.materials.iter().any(Surface::is_transparent);
     let is_drawn = |&i: &usize| {

@@ -315,7 +315,8 @@ impl<'a> Shader<'a> {
         if self.look.shading != Shading::Phong {
             return light;
         }
-        // The highlight is that of Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977.
+        // The formula for the highlight is from Blinn, "Models of Light Reflection for Computer Synthesized Pictures",
+        // 1977.
         let roughness = surface.map_or(1.0, |s| s.roughness).clamp(0.0, 1.0);
         let exponent = 40.0 + 200.0 * (1.0 - roughness);
         let strength = 0.45 + 0.4 * (1.0 - roughness);
@@ -336,8 +337,8 @@ fn normal(part: &Part, triangle: usize, point: &SurfacePoint) -> DVec3 {
         return point.normal;
     }
     let n = if point.is_back { -normal } else { normal };
-    // An interpolated normal can point away from the camera although the triangle faces the camera. Such a normal is
-    // made perpendicular to the direction towards the camera.
+    // An interpolated normal can point away from the camera although the triangle faces the camera. In this case, the
+    // normal is made perpendicular to the direction towards the camera.
     let facing = n.dot(point.to_eye);
     if facing < 0.0 {
         (n - point.to_eye * facing).normalize_or(point.normal)
@@ -346,8 +347,8 @@ fn normal(part: &Part, triangle: usize, point: &SurfacePoint) -> DVec3 {
     }
 }
 
-/// Returns the color of clay in a studio, for the normal `n` relative to the camera: broad light from the upper left, a
-/// bright border, and a soft highlight.
+/// Returns the color of clay in a studio, with broad light from the upper left, a bright border, and a soft highlight.
+/// `n` is the normal relative to the camera.
 fn matcap(color: [f32; 3], n: DVec3, openness: f32) -> [f32; 3] {
     let wrapped = narrow(n.dot(KEY.normalize())) * 0.5 + 0.5;
     let broad = 0.16 + 0.84 * wrapped * wrapped;

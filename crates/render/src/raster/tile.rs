@@ -1,10 +1,10 @@
 //! Finds the visible triangle for each sample of a tile of the picture.
 //!
 //! A pixel has 16 samples. Each of its 16 rows and each of its 16 columns contains exactly one sample (n-rooks:
-//! Shirley, "Discrepancy as a Quality Measure for Sample Distributions", 1991). This arrangement of samples was found
-//! by a search. For many edges that cut a pixel in all directions, the search compared the fraction of covered samples
-//! with the exact covered fraction of the pixel. Of all tested arrangements, this one has the smallest difference
-//! between the two fractions.
+//! Shirley, "Discrepancy as a Quality Measure for Sample Distributions", 1991). The arrangement of samples in `ROWS`
+//! was found by a search. For many edges that cut a pixel in all directions, the search compared the fraction of
+//! covered samples with the exact covered fraction of the pixel. Of all tested arrangements, this one has the smallest
+//! difference between the two fractions.
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
@@ -49,8 +49,8 @@ pub(super) struct Tile {
     pub(super) depth: Vec<[f32; SAMPLES]>,
     /// For each pixel, the visible triangle at each of its samples.
     pub(super) triangles: Vec<[u32; SAMPLES]>,
-    /// For each pixel, the line that covers each of its samples. The number is 2 i + 2 for a visible line i, 2 i + 3 for
-    /// a hidden line i, and 0 if no line covers the sample.
+    /// For each sample of each pixel, the line that covers it: 2 i + 2 for a visible line i, 2 i + 3 for a hidden line
+    /// i, and 0 if no line covers the sample.
     pub(super) lines: Vec<[u32; SAMPLES]>,
     /// The planes of triangles that were used last.
     pub(super) planes: Planes,

@@ -197,9 +197,10 @@ impl Star {
         // The one-ring shrinks by different factors in different directions. Without a correction, only the direction
         // that shrinks most slowly would remain after some levels. Orthogonal iteration preserves all directions: after
         // each level the columns x, y and z are made orthonormal. An upper triangular matrix converts the orthonormal
-        // columns back to the previous columns. The product of these matrices over all levels is stored without a
-        // common factor. The rows of the product are (1, b, c), s (0, 1, e) and s q (0, 0, 1); the five numbers b, c,
-        // e, s and q are updated at each level. The first two rows converge to vectors that span the plane.
+        // columns back to the previous columns. The product of the upper triangular matrices over all levels is stored
+        // without a common factor. The rows of the product are (1, b, c), s (0, 1, e) and s q (0, 0, 1); the five
+        // numbers b, c, e, s and q are updated at each level. The first two rows converge to vectors that span the
+        // plane.
         let mut star = self.clone();
         let to_frame = frame.transpose();
         for p in star.points() {

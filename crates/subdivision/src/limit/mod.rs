@@ -2,13 +2,13 @@
 //! subdivision, and the tangent planes at these positions.
 //!
 //! If the sharpness at a vertex does not change with levels, the limit position is a weighted mean of the one-ring (the
-//! vertex and the vertices around it). In this case, the tangents are weighted sums of the one-ring. The weights (the
-//! limit masks) are the left eigenvectors of the matrix that maps the one-ring to the one-ring of the next level.
-//! Sources: Halstead, Kass and DeRose, "Efficient, Fair Interpolation using Catmull-Clark Surfaces", 1993; Hoppe et
-//! al., "Piecewise Smooth Surface Reconstruction", 1994; Biermann, Levin and Zorin, "Piecewise Smooth Subdivision
-//! Surfaces with Normal Control", 2000. If the vertex or one of its edges is semi-sharp (its sharpness falls to 0 after
-//! some levels), the one-ring is refined until this sharpness is 0. For a dart, the end of a single sharp edge, there
-//! is no closed formula: its one-ring is refined until it converges.
+//! vertex and the vertices around it). The tangents are then weighted sums of the one-ring. The weights, called limit
+//! masks, are left eigenvectors of the matrix that maps a one-ring to the one-ring of the next level. Sources:
+//! Halstead, Kass and DeRose, "Efficient, Fair Interpolation using Catmull-Clark Surfaces", 1993; Hoppe et al.,
+//! "Piecewise Smooth Surface Reconstruction", 1994; Biermann, Levin and Zorin, "Piecewise Smooth Subdivision Surfaces
+//! with Normal Control", 2000. If the vertex or one of its edges is semi-sharp (its sharpness falls to 0 after some
+//! levels), the one-ring is refined until this sharpness is 0. For a dart, the end of a single sharp edge, there is no
+//! closed formula: its one-ring is refined until it converges.
 
 mod masks;
 mod star;

@@ -44,9 +44,9 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    /// Returns the cuts of a level that cuts the chosen triangles into four. As long as any other triangle would get a
-    /// second hanging vertex, the level cuts that triangle into four, too. The result does not depend on the order in
-    /// which triangles are visited.
+    /// Returns the cuts of a level that cuts the chosen triangles into four. If another triangle would get a second
+    /// hanging vertex, the level cuts this triangle into four, too. This is repeated until no triangle would have two
+    /// hanging vertices. The result does not depend on the order in which triangles are visited.
     ///
     /// In `mesh`, a face with four corners stands for a triangle with a hanging vertex.
     pub(super) fn of_triangles(

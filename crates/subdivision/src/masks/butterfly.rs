@@ -24,12 +24,12 @@
 //! boundary is from Dyn, Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. The
 //! two cited papers leave three cases open:
 //!
-//! - If a vertex with weight -1/16 would lie beyond a boundary edge, this vertex is missing. It is replaced by the
-//!   corner opposite that edge, reflected through the middle of the edge. In this way, the new vertices of a flat
-//!   regular grid lie on the refined grid, up to the boundary.
+//! - If a vertex with weight -1/16 would lie beyond a boundary edge, this vertex is missing. The corner opposite to the
+//!   boundary edge, reflected through the middle of the edge, replaces the missing vertex. In this way, the new
+//!   vertices of a flat regular grid lie on the refined grid, up to the boundary.
 //! - Boundary vertices are never extraordinary.
-//! - For n = 2, the neighbors have the weights 3/8 and -1/8. These are the weights for n = 4 without the two
-//!   zeros.
+//! - For n = 2, the neighbors have the weights 3/8 and -1/8. These two weights are the weights for n = 4 without the
+//!   two zeros.
 
 use std::f64::consts::TAU;
 

@@ -48,7 +48,7 @@ impl Masks for CatmullClarkMasks<'_> {
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
         let mut new: Vec<DVec3> = mesh::zeroed(n);
         let first_center = self.mesh.n_vertices() + self.mesh.n_edges();
-        // The centers are computed first, because the masks of edges and vertices read them.
+        // The face centers are computed first, because the new positions of edges and vertices depend on them.
         let (edges_and_vertices, centers) = new.split_at_mut(first_center);
         fill(centers, meter, |f| {
             let (mut sum, mut n) = (DVec3::ZERO, 0_u32);

@@ -45,8 +45,8 @@ fn meshes_converge_at_the_rate_of_their_valences() {
 
 #[test]
 fn a_vertex_converges_by_the_eigenvalue_of_its_valence() {
-    // Let n be the valence of a vertex and u the weight of each neighbor. In Loop subdivision the vertex and the mean
-    // of its neighbors are mapped by the matrix (1 - n u, n u; 3/8, 5/8), whose eigenvalues are 1 and 5/8 - n u.
+    // Let n be the valence of a vertex and u the weight of each neighbor. Loop subdivision maps the vertex and the mean
+    // of its neighbors by the matrix (1 - n u, n u; 3/8, 5/8). Its eigenvalues are 1 and 5/8 - n u.
     for weights in [LoopWeights::Warren, LoopWeights::Loop] {
         let rules = Rules::of(Scheme::Loop(weights));
         for (name, mesh) in fixtures::all() {

@@ -8,7 +8,7 @@ use subdivision::{LoopWeights, Rules, Scheme};
 use crate::polygons::{Adjacency, Edge, Polygons, edge};
 use crate::split;
 
-/// Computes one level. The faces are those of Loop subdivision.
+/// Computes one level. The new faces have the same corners as in Loop subdivision.
 pub(crate) fn refine(mesh: &Polygons) -> Polygons {
     let adjacency = Adjacency::new(mesh.positions.len(), &mesh.faces);
     let mut fine = split::refine(mesh, Rules::of(Scheme::Loop(LoopWeights::Loop)));
@@ -52,8 +52,8 @@ fn new_vertex(mesh: &Polygons, (a, b): Edge, adjacency: &Adjacency) -> DVec3 {
     }
 }
 
-/// For a triangle a, b, c, returns the third corner of the other triangle at the edge from a to b. If there is no other
-/// triangle, returns c reflected through the middle of the edge.
+/// Returns the vertex opposite to the triangle a, b, c at the edge from a to b: the third corner of the neighboring
+/// triangle. If there is no neighboring triangle, returns c reflected through the middle of the edge.
 fn wing(mesh: &Polygons, [a, b, c]: [usize; 3], adjacency: &Adjacency) -> DVec3 {
     let begins_at_b = |side: &&(usize, usize)| adjacency.at(**side, 0) == b;
     match adjacency.sides[&edge(a, b)].iter().find(begins_at_b) {

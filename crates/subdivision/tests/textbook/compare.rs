@@ -158,7 +158,8 @@ fn size(points: &[DVec3]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Returns for each point of one list the index of the same point in the other list.
+/// For each point of the first list, returns the index of the point of the second list at the same position, up to a
+/// tolerance. Fails if a point has no partner, or two points have the same partner.
 fn matches(points: &[DVec3], expected: &[DVec3]) -> Result<Vec<usize>, String> {
     if points.len() != expected.len() {
         return Err(format!(

@@ -10,8 +10,8 @@
 //! b0                              b3
 //! ```
 //!
-//! The legs of a level are the line segments between its consecutive points. The points of the next level divide these
-//! legs in the ratio t : 1 - t (de Casteljau, "Outillages méthodes calcul", 1959). The points have the names `b_i^r` of
+//! The legs of a level are the line segments between its consecutive points. Each point of the next level divides a leg
+//! in the ratio t : 1 - t (de Casteljau, "Outillages méthodes calcul", 1959). The points have the names `b_i^r` of
 //! Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §4.2.
 
 mod frame;
@@ -142,7 +142,7 @@ const TITLE: f64 = 30.0;
 /// The minimum width of the drawing in a panel, in pixels.
 const MIN_DRAWING_WIDTH: f64 = 32.0;
 
-/// Draws a figure of these panels. The panels are arranged in rows, from left to right.
+/// Draws a figure that arranges the panels in rows, from left to right.
 ///
 /// Each curve and its construction fill their panel, with the same scale in both axes. If all control points of a curve
 /// are equal, the curve is drawn as a point.

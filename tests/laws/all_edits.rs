@@ -53,12 +53,13 @@ proptest! {
                 } else {
                     code.kind
                 };
-                // Algorithms for whole surfaces are slow, so at most one of twenty edits is such an algorithm.
+                // Algorithms that change the whole surface are slow, so a sequence has at most one of them in twenty
+                // edits.
                 let is_slow = kind > LAST_LOCAL && i % 20 != 0;
                 let kind = if is_slow { kind % LAST_LOCAL } else { kind };
                 let code = EditCode { kind, ..code };
-                // Every tenth edit is made in a nested level of the journal (the record for undoing edits). This level
-                // is then rolled back.
+                // Every tenth edit is made in a nested level of the journal (the record for undoing edits), and this
+                // level is then rolled back.
                 if i % 10 == 9 {
                     let before = mesh.clone();
                     mesh.begin();

@@ -250,7 +250,7 @@ fn change_surface_further(mesh: &mut Mesh, code: EditCode) {
                     1 => deform::Twist { frame, angle: t }.point(*p),
                     _ => deform::Taper { frame, factor: t }.point(*p),
                 };
-                // The operations refuse results that are not finite, so such results are skipped.
+                // Operations refuse positions that are not finite, so this edit does not move such vertices.
                 if moved.is_finite() {
                     *p = moved;
                 }

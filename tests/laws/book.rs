@@ -1,5 +1,5 @@
-//! Tests the book: every recipe runs, every example in the tables can be read, every selection and expectation has an
-//! example, and every link leads to an existing file and heading.
+//! Tests the book. Every recipe must run, and every example in the tables must be readable. Every selection and
+//! expectation must have an example. Every link must lead to an existing file and heading.
 //!
 //! A code block marked `ron` is a whole recipe that runs in the folder `scenes/`. A code block marked `ron,step` is a
 //! step, and a code block marked `ron,sweep` is a sweep.

@@ -58,8 +58,8 @@ fn no_pattern_of_flipped_diagonals_keeps_more_than_twelve_rotations_of_a_cube() 
             .iter()
             .all(|scene| is_symmetric(scene, None, Some(12)))
     );
-    // Two patterns of diagonals keep twelve of the rotations of the cube. In one of these two patterns, the diagonals
-    // are the edges of a tetrahedron. The other pattern is the mirror image of the first.
+    // Two patterns of diagonals keep twelve of the rotations of the cube. In one pattern, the diagonals are the edges
+    // of a tetrahedron. The other pattern is its mirror image.
     assert_eq!(
         scenes
             .iter()

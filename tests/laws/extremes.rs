@@ -11,8 +11,8 @@ use crate::every_op::{Case, defects, exact_plan, files};
 use crate::samples::samples;
 use crate::{assert_none, fixtures};
 
-/// Zero, a negative number, numbers that overflow, underflow or lose precision when they are added, multiplied or
-/// squared, and numbers at the limits of integers.
+/// Extreme numbers: zero, a negative number, numbers at the limits of integers, and numbers that overflow, underflow or
+/// lose precision when they are added, multiplied or squared.
 const NUMBERS: &[&str] = &[
     "0",
     "-1",
@@ -63,8 +63,8 @@ fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec
     texts
 }
 
-/// Returns several scenes: one with an object of each kind, one with a cube of triangles, and some with this cube
-/// scaled to very large and very small sizes.
+/// Returns several scenes: one with an object of each kind, one with a cube of triangles, and three with the same cube,
+/// scaled to very large or very small sizes.
 fn scenes() -> Vec<(&'static str, Scene)> {
     let find = |wanted: &str| {
         let mut all = fixtures::scenes().into_iter();

@@ -1,5 +1,5 @@
-//! Checks that only the crates in `ALLOWED` access files or clocks directly, because the other crates must run on
-//! platforms without files and clocks.
+//! Checks that only the crates in `ALLOWED` access files or clocks directly. All other crates must run on platforms
+//! without files and clocks.
 
 use std::path::{Path, PathBuf};
 

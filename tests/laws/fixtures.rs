@@ -1,5 +1,5 @@
-//! The scenes on which every operation is tested. The first mesh of a scene is named "mesh", and the second mesh is
-//! named "other". The sample parameters of operations refer to these names.
+//! The scenes on which every operation is tested. The first mesh of a scene has the name "mesh", and the second mesh
+//! has the name "other", because the sample parameters of operations refer to these names.
 
 use bezier::Curve;
 use geometry::shapes;
@@ -86,7 +86,7 @@ pub(crate) fn with_attributes(mut mesh: Mesh) -> Object {
     mesh.set(MATERIAL, (0..n_faces).map(|f| [0, 1, -1][f % 3]).collect());
     mesh.set(SMOOTHING, vec![1; n_faces]);
     for domain in Domain::ALL {
-        // Corners have the values of their vertices, so that these attributes add no seams.
+        // Each corner has a value that depends only on its vertex, so that corner attributes add no seams.
         let sources: Vec<usize> = match domain {
             Domain::Corner => mesh.half_edges().map(|h| mesh.origin(h).index()).collect(),
             _ => (0..mesh.domain_len(domain)).collect(),
@@ -252,6 +252,6 @@ fn the_fixtures_have_the_intended_properties() {
             "{name}"
         );
     }
-    // Some sums are computed in blocks of vertices. This mesh must have more vertices than one block.
+    // Some algorithms process vertices in blocks of 4096. The largest mesh must have more vertices than one block.
     assert!(mesh("large torus of triangles").n_vertices() > 4096);
 }

@@ -122,8 +122,8 @@ fn check_knows_what_small_recipes_refuse_and_lose() {
     for (name, text) in FILES {
         std::fs::write(folder.path().join(name), text).expect("the file can be written");
     }
-    // Operations with a path are left out. The cases already contain `Load` and `Save`. The other operations with a
-    // path write pictures, which takes long and loses nothing.
+    // Operations with a path are left out. The cases already contain `Load` and `Save`. All other operations with a
+    // path write pictures, which takes a long time and loses no data.
     let operations = registry.entries().iter().map(|entry| entry.example);
     let operations = operations.filter(|example| !example.contains("path:"));
     let cases: Vec<String> = operations

@@ -149,7 +149,7 @@ fn expected(mesh: &Mesh, oracle: &Polygons, edit: Edit) -> (Result<Polygons, Edi
             if !mesh.has_face(f) {
                 return (Err(EditError::NoSuchFace(f)), euler);
             }
-            // Deleting a face also removes those of its edges that have no other face. The vertices are kept.
+            // If a face is deleted, its edges that have no other face are also removed. All vertices are kept.
             let sides = mesh.face_half_edges(f);
             let n_removed = sides.filter(|&h| mesh.face(h.twin()).is_none()).count();
             let n_removed = i64::try_from(n_removed).expect("a small number");
@@ -272,8 +272,8 @@ impl Polygons {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // One face is rotated so that it starts with a, b, and the other face starts with b, a. The next corners of the
-        // two faces are then c and d.
+        // The corners of the first face are rotated so that they start with a, b, c, and the corners of the second face
+        // so that they start with b, a, d.
         let from = |f: usize, start: (u32, u32)| {
             let mut face = self.faces[f].clone();
             let place = sides(&face).position(|side| side == start);

@@ -4,9 +4,10 @@
 //     g++ -std=c++17 -O2 bench.cpp -losdCPU -o bench && ./bench
 //
 // Each output line after the first has the median, minimum and maximum time of five runs after one warm-up run, in
-// seconds, and the peak resident memory. Each kind of run has a separate process, so that its memory is measured
-// separately. "create" is the time to build the connectivity of the coarse mesh, "refine" to build the connectivity
-// of all levels, and "positions" to compute the positions of all levels, each in a newly allocated vector.
+// seconds, and the peak resident memory. Each line is measured in a separate process, so that its peak memory does not
+// include other runs. "create" is the time to build the connectivity of the coarse mesh. "refine" is the time to build
+// the connectivity of all levels. "positions" is the time to compute the positions of all levels, each in a newly
+// allocated vector.
 
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -133,7 +134,7 @@ Seconds once(Cage const& cage, Sdc::SchemeType scheme, int levels, bool full, do
     }
     double const done = now();
 
-    // The runs print the sum, so that the compiler cannot remove the computation.
+    // The program prints the sum of the results, so that the compiler cannot remove the computation.
     for (Point const& p : positions) sum += p.x + p.y + p.z;
     sum += refiner->GetLevel(levels).GetNumFaces();
     return {created - start, refined - created, done - refined};

@@ -178,8 +178,8 @@ std::unique_ptr<Refiner> refined(Case const& in) {
     return refiner;
 }
 
-/// Prints numbers, each after a space. Numbers that round to zero have no sign. Halves, which are common, are
-/// rounded up even if their last bits differ between compilers.
+/// Prints numbers, each after a space. Numbers that round to zero have no sign. Numbers halfway between two decimals
+/// are common. They are rounded up, even if their last bits differ between compilers.
 template <int N>
 void print(Value<N> const& value) {
     for (double x : value.at) {

@@ -96,8 +96,8 @@ def smallest_angles(positions, triangles):
 
 
 def measure(program, source, target):
-    """Returns the number of triangles, the largest, mean and RMS distances relative to the diagonal, and the angle
-    below which the smallest angles of 1 % of the triangles lie."""
+    """Returns the number of triangles, the largest, mean and RMS distances relative to the diagonal, and the first
+    percentile of the smallest angles of the triangles."""
     difference = subprocess.run([program, "diff", source, target, "--format", "json"], capture_output=True, text=True)
     distance = json.loads(difference.stdout)["objects"][0]["mesh"]["distance"]
     before, after = read(source), read(target)

@@ -12,8 +12,8 @@ use subdivision::{Rules, Scheme, subdivide};
 use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 
 /// The tolerance for uvs, for sharpness, and for positions relative to the size of the mesh. Normals have ten times
-/// this tolerance. A tolerance is necessary because the results have seven decimal places, and OpenSubdiv stores
-/// sharpness as `f32`.
+/// this tolerance. A tolerance is necessary because the files contain results with seven decimal places, and OpenSubdiv
+/// stores sharpness as `f32`.
 const TOLERANCE: f64 = 1e-6;
 
 /// Finds the nearest position in `expected` for each vertex of `mesh`. Fails if the number of vertices is not the
@@ -106,8 +106,8 @@ fn faces_differ(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<Str
 }
 
 /// Describes the differences between the sharpness of `mesh` and the expected sharpness. Boundary edges and vertices
-/// with one face are skipped, because OpenSubdiv can make them sharp by its rule for boundaries, and its sharpness
-/// values then contain the effect of this rule.
+/// with one face are skipped: OpenSubdiv can make them sharp by its rule for boundaries, and then returns the sharpness
+/// that results from this rule.
 fn sharpness_differs(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<String> {
     let creases: BTreeMap<[VertexId; 2], f64> = expected
         .creases()
@@ -178,8 +178,8 @@ fn compared(mesh: &Mesh, expected: &Lines, tolerance: f64) -> Vec<String> {
 
 /// Describes the differences between the limit surface at the vertices of a refined mesh and the expected limit
 /// surface. Compares only values for which OpenSubdiv uses exact limit masks. The positions of all vertices except
-/// darts are compared. The compared normals are the normals of smooth vertices, of corners with one face, and of
-/// creases on the boundary with at most 2 quads (Catmull-Clark) or 3 triangles (Loop).
+/// darts are compared. Normals are compared at smooth vertices, at corners with one face, and at boundary creases with
+/// at most 2 quads (Catmull-Clark) or 3 triangles (Loop).
 fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) -> Vec<String> {
     let partners =
         matched(mesh, &expected.positions(), tolerance).expect("the meshes were compared before");
@@ -287,8 +287,8 @@ fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
     // rule keeps corners, and puts new vertices at the midpoints of edges.
     let [corner, far] = [[7.0 / 9.0; 3], [0.0, 0.875, 0.875]];
     assert_positions("known_sharp_cube", &[(near, 6), (corner, 8), (far, 12)]);
-    // In the new position of a vertex on a boundary without corners, the vertex has the weight 3/4, and each of its two
-    // neighbors on the boundary has the weight 1/8.
+    // If no boundary vertex is a corner, the new position of a boundary vertex has the weights 3/4 for the vertex
+    // itself and 1/8 for each of its two neighbors on the boundary.
     let [corner, far] = [[0.0, 0.75, 0.75], [0.0, 0.0, 1.0]];
     assert_positions("known_square", &[([0.0; 3], 1), (corner, 4), (far, 4)]);
     // The uvs of the square are the positions of its corners, and the rule `CornersOnly` keeps these uvs.

@@ -376,7 +376,7 @@ fn list<'v>(recipe: &'v Value, field: &str) -> &'v [Value] {
         .unwrap_or_default()
 }
 
-/// Returns the text without the given list items and the commas after them. Keeps comments.
+/// Removes list items and the commas after them from the text of a recipe. Comments are kept.
 fn without(source: &str, items: &[Span]) -> String {
     let mut edits = Vec::new();
     for &item in items {

@@ -1,5 +1,5 @@
-//! Tests of general properties: of every operation on every test scene, of every schema, of random sequences of edits,
-//! of the book, and of the sources.
+//! Tests of general properties. The tests cover every operation on every test scene, every schema, random sequences of
+//! edits, the book, and the source files.
 
 mod all_edits;
 mod any_edit;

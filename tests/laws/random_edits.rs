@@ -205,7 +205,7 @@ fn corners(mesh: &Mesh, f: FaceId) -> Vec<u32> {
     lowest_first(mesh.face_vertices(f).map(number).collect())
 }
 
-/// Returns the lexicographically smallest rotation of a face. A face can contain its lowest vertex twice.
+/// Returns the lexicographically smallest rotation of a face. A face can have its lowest vertex at two corners.
 fn lowest_first(face: Vec<u32>) -> Vec<u32> {
     let turned = |i: usize| [&face[i..], &face[..i]].concat();
     (0..face.len()).map(turned).min().unwrap_or(face)

@@ -14,7 +14,7 @@ pub struct Palette {
     colors: Vec<[u8; 3]>,
     /// The index of the transparent entry.
     transparent: Option<u8>,
-    /// The nearest entry for each color that was looked up before.
+    /// A cache: for each color that was looked up before, the index of the nearest entry.
     nearest_entries: HashMap<[u8; 3], u8>,
 }
 

@@ -169,7 +169,7 @@ pub fn subdivision_matrix(
     Ok(matrix)
 }
 
-/// Removes all attributes except sharpness, which shapes the surface.
+/// Removes all attributes except sharpness. Sharpness is kept, because it changes the weights.
 fn keep_sharpness(mesh: &mut Mesh) {
     let mut kept = Attributes::default();
     for (domain, name) in [

@@ -53,7 +53,7 @@ fn fill_counted<T: Send>(
     })
 }
 
-/// Returns `n` computed values: element i is `value(i)`. Adds nothing to the meter.
+/// Computes an array of `n` elements: element i is `value(i)`. Adds nothing to the meter.
 pub(crate) fn computed<T: Value>(
     n: usize,
     meter: &Meter,

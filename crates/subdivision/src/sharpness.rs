@@ -103,8 +103,8 @@ pub(crate) struct SemiSharp {
 }
 
 impl SemiSharp {
-    /// Collects the semi-sharp edges, given the sharpness of all edges at the vertex. Collects nothing unless
-    /// Chaikin's rule is used.
+    /// Counts the semi-sharp edges among all edges at a vertex. `edges` has the sharpness of these edges. With any rule
+    /// except Chaikin's, counts no edges.
     pub(crate) fn of(creasing: Creasing, edges: impl Iterator<Item = f64>) -> Self {
         let mut semi_sharp = Self::default();
         if creasing == Creasing::Chaikin {
@@ -207,7 +207,8 @@ impl<'a> Sharpness<'a> {
         self.vertices.map_or(0.0, |s| s[v.index()].max(0.0))
     }
 
-    /// Returns the outgoing half-edge along the other boundary edge at the origin of boundary half-edge `h`.
+    /// Two boundary edges meet at the origin of boundary half-edge `h`. Returns the outgoing half-edge of the edge that
+    /// does not contain `h`.
     #[inline]
     fn clockwise_last(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.mesh.prev(h).twin()

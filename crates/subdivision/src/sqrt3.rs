@@ -199,7 +199,8 @@ impl<'a> Sqrt3<'a> {
         }
     }
 
-    /// Returns the origin, the next half-edge and the face of the new half-edge that has the id of old half-edge `h`.
+    /// A new half-edge gets the id of old half-edge `h`. Returns the origin, the next half-edge and the face of this
+    /// new half-edge.
     #[inline]
     fn kept_half_edge(&self, h: HalfEdgeId) -> Link {
         let mesh = self.mesh;

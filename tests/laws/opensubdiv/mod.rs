@@ -248,8 +248,8 @@ fn results_equal_those_of_opensubdiv() {
     crate::assert_none(&failures);
 }
 
-/// Panics unless the result for `case` has exactly these positions, up to the order and signs of the
-/// coordinates.
+/// Panics unless the file with the result of `case` has exactly these positions. The order and the signs of the
+/// coordinates are ignored.
 #[track_caller]
 fn assert_positions(case: &str, expected_values: &[([f64; 3], usize)]) {
     let positions = result(case).positions();

@@ -215,7 +215,7 @@ struct Builder<'s, 'a> {
     images: &'a mut dyn FnMut(&str) -> Option<Vec<u8>>,
     /// The memory budget in bytes.
     budget: u64,
-    /// The size of the textures that have been decoded, in bytes.
+    /// The number of bytes of all textures that have been decoded so far.
     texture_bytes: u64,
     missing: Vec<String>,
     drawing: Drawing<'s>,

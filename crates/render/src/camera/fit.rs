@@ -163,9 +163,9 @@ impl Fit {
     }
 }
 
-/// Returns the center and the radius of a sphere that contains all points. The center is that of the bounding box. If
-/// there are no points, the radius is 1. If all points are nearly equal, the radius is the larger of two numbers: 1,
-/// and 0.001 times the largest absolute coordinate of the center.
+/// Returns the center and the radius of a sphere that contains all points. The center of the sphere is the center of
+/// the bounding box of the points. If there are no points, the radius is 1. If all points are nearly equal, the radius
+/// is the larger of two numbers: 1, and 0.001 times the largest absolute coordinate of the center.
 pub(crate) fn sphere(points: &impl Fn(&mut dyn FnMut(DVec3))) -> (DVec3, f64) {
     let mut bounds: Option<[DVec3; 2]> = None;
     points(&mut |p| {

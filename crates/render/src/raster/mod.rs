@@ -97,8 +97,8 @@ pub fn pixel_bytes(size: [u32; 2]) -> u64 {
     4 * width * height + rows + (1 << 20)
 }
 
-/// Returns an upper bound of the memory that [`render`] needs for a picture of this view and size, in bytes, in
-/// addition to the drawing.
+/// Returns an upper bound of the memory that [`render`] needs for a picture with this view and size, in bytes. The
+/// memory of the drawing itself is not included.
 pub fn bytes_needed(drawing: &Drawing, view: &View, size: [u32; 2], look: &Look) -> u64 {
     // The sides are limited, as in `pixel_bytes`, so that the computation does not overflow.
     let [width, height] = size.map(|side| side.min(1 << 20));

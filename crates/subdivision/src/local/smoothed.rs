@@ -16,7 +16,8 @@ pub(super) struct LocalMasks<'a> {
 }
 
 impl LocalMasks<'_> {
-    /// Returns the id that vertex `i` would have if all faces were cut, or `None` if the vertex is not smoothed.
+    /// Returns the id that vertex `i` of the next level would have if all faces were cut. Returns `None` if the vertex
+    /// is not smoothed.
     fn index_in_full_level(&self, i: usize) -> Option<usize> {
         let pieces = self.pieces;
         let (n_vertices, n_edges) = (pieces.mesh.n_vertices(), pieces.mesh.n_edges());
@@ -49,8 +50,8 @@ impl AnyMasks for LocalMasks<'_> {
     }
 
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
-        // If faces get new vertices at their centers, computes the values of the whole level at once. If the values
-        // were computed one by one, each vertex of a large face would sum all corners of that face again.
+        // If faces get new vertices at their centers, the values of a level that cuts all faces are computed at once.
+        // If the values were computed one by one, each vertex of a large face would sum all corners of that face again.
         let full_level = if self.pieces.centers.len() == 0 {
             Vec::new()
         } else {

@@ -1,4 +1,4 @@
-//! Corner values and their subdivision, as in OpenSubdiv's face-varying data.
+//! Corner values and their subdivision, like the face-varying data of OpenSubdiv.
 //!
 //! If several corners at a vertex have equal texture coordinates, they share one value. The rule for a value is decided
 //! on each level, from the sharpness on that level. OpenSubdiv decides only once which of two values depends on the
@@ -336,7 +336,7 @@ fn of_edge(
     mask.end * ends + mask.side * sides.iter().map(beside).sum::<DVec2>()
 }
 
-/// The data to refine the values at an old vertex.
+/// The data from which the new values at an old vertex are computed.
 struct Vertex<'a> {
     charts: &'a Charts,
     v: usize,

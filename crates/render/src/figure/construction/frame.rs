@@ -26,7 +26,7 @@ const MAX_HEIGHT: f64 = 0.85;
 const MIN_HEIGHT: f64 = 0.2;
 
 impl Frame {
-    /// Creates the frame of a drawing of two states of a curve. The drawing is `inner` pixels wide.
+    /// Creates the frame of a drawing that shows two states of a curve and is `inner` pixels wide.
     pub(super) fn new(curve: &Curve<DVec2>, before: Option<&Curve<DVec2>>, inner: f64) -> Self {
         let before = before.map_or(&[][..], Curve::points);
         let points = curve.points().iter().chain(before);

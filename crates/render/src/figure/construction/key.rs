@@ -1,4 +1,4 @@
-//! The legend below a figure.
+//! Draws the legend below a figure, which explains its lines and points.
 
 use glam::DVec2;
 

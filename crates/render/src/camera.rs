@@ -396,8 +396,8 @@ impl View {
         DVec3::new(p.dot(x), p.dot(y), -p.dot(z))
     }
 
-    /// Returns a number that tells on which side of a clipping plane the point `v` lies, in [camera
-    /// coordinates](Self::camera_space). The number is at least 0 on the visible side, and it is linear in `v`.
+    /// Returns a number that tells on which side of a clipping plane the point `v` lies. The number is at least 0 on
+    /// the visible side, and it is linear in `v`. `v` is in [camera coordinates](Self::camera_space).
     ///
     /// Plane 0 is the near plane. Planes 1 to 4 are to the left, to the right, above and below. In the picture, each of
     /// these four planes is a line at a distance of `far` pixels from the upper left corner.

@@ -16,12 +16,12 @@ impl Cancel {
         Self(AtomicBool::new(false))
     }
 
-    /// Cancels the runs. Returns whether the runs were already canceled.
+    /// Cancels all runs that this listener listens to. Returns whether [`set`](Self::set) was called before.
     pub fn set(&self) -> bool {
         self.0.swap(true, Ordering::Relaxed)
     }
 
-    /// Whether the runs are canceled.
+    /// Whether [`set`](Self::set) was called.
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -1,4 +1,4 @@
-//! Diagnostics and reports of steps as JSON, for other programs that read the output of `meshwright`, and for the
+//! Converts diagnostics and reports of steps to JSON. The JSON is read by programs that call `meshwright`, and by the
 //! browser.
 
 use op::{Loss, ReadingChange, ReadingElements};
@@ -6,7 +6,7 @@ use recipe::{Diagnostic, LineIndex, Source, StepDone};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-/// A diagnostic, for serialization as JSON. Fields without a value are `null`.
+/// A diagnostic in the form in which it is written as JSON. A field without a value is written as `null`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Problem {
     /// The severity of the problem: `error` or `warning`.
@@ -23,7 +23,8 @@ pub struct Problem {
     pub help: Option<String>,
 }
 
-/// Converts diagnostics for serialization as JSON. `sources` are the texts that the diagnostics refer to.
+/// Converts diagnostics to the form in which they are written as JSON. `sources` contains the texts that the
+/// diagnostics refer to.
 pub fn problems(diagnostics: &[Diagnostic], sources: &[Source]) -> Vec<Problem> {
     let lines: Vec<LineIndex> = sources.iter().map(|s| LineIndex::new(&s.text)).collect();
     let problem = |d: &Diagnostic| {
@@ -42,7 +43,7 @@ pub fn problems(diagnostics: &[Diagnostic], sources: &[Source]) -> Vec<Problem> 
     diagnostics.iter().map(problem).collect()
 }
 
-/// Converts losses for serialization as JSON.
+/// Converts losses to JSON. A loss describes data that a step dropped, such as an attribute.
 pub fn losses(losses: &[Loss]) -> Vec<Json> {
     let json = |l: &Loss| {
         let object = (!l.object.is_empty()).then_some(&l.object);
@@ -53,9 +54,10 @@ pub fn losses(losses: &[Loss]) -> Vec<Json> {
     losses.iter().map(json).collect()
 }
 
-/// Returns the event `done` of a step. The event contains the label of the step, how many elements the scene has after
-/// the step, the report of the step, and the time that the step took. `number` is the index of the step, counted
-/// from 0. The field `number` of the event is `number` + 1, because events count steps from 1.
+/// Returns the event `done` of a step. The event contains the label of the step, the numbers of elements in the scene
+/// after the step, the report and the time of the step, and whether the result was taken from the cache. The argument
+/// `number` is the index of the step, counted from 0. The field `number` of the event is 1 larger, because events count
+/// steps from 1.
 pub fn step_done(number: usize, done: &StepDone) -> Json {
     json!({
         "event": "done",
@@ -76,8 +78,8 @@ pub fn step_done(number: usize, done: &StepDone) -> Json {
     })
 }
 
-/// Converts to JSON a change that was made while a file was read. The field `text` names only some of the changed
-/// elements. The field `vertices`, `edges` or `faces` lists all of them.
+/// Converts a change to JSON. The change was made to a mesh while its file was read. The field `text` names only some
+/// of the changed elements. The field `vertices`, `edges` or `faces` lists all of them.
 fn change(change: &ReadingChange) -> Json {
     let mut json = json!({
         "code": change.code, "count": change.count, "text": change.message,

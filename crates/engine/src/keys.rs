@@ -8,8 +8,8 @@ use store::{Entry, Store};
 
 use crate::Loaded;
 
-/// The key of a step: a hash of the memory budget, the step and all steps before it. The lengths and modification times
-/// of the input files of these steps are also hashed.
+/// The key of a step: a hash of the memory budget, of the step, and of all steps before this step. The lengths and
+/// modification times of the input files of all these steps are also hashed.
 pub type StepKey = [u8; 32];
 
 /// The keys of a recipe.
@@ -17,8 +17,8 @@ pub type StepKey = [u8; 32];
 pub struct StepKeys {
     /// The key of each step.
     pub steps: Vec<StepKey>,
-    /// The key of each expectation: a hash of the expectation, of the key of the step before it, and of the lengths and
-    /// modification times of all input files.
+    /// The key of each expectation: a hash of the expectation, of the key of the step after which the expectation is
+    /// checked, and of the lengths and modification times of all input files.
     pub expectations: Vec<StepKey>,
     /// The key before the first step: a hash of the memory budget.
     pub start: StepKey,
@@ -93,8 +93,7 @@ impl StepKeys {
     }
 }
 
-/// Returns a text that contains the path, the length and the modification time of each file. The text changes when one
-/// of the files changes.
+/// Returns a text that contains the path, the length and the modification time of each file.
 fn stamps(paths: &[PathBuf], store: &dyn Store) -> String {
     paths
         .iter()
@@ -102,8 +101,8 @@ fn stamps(paths: &[PathBuf], store: &dyn Store) -> String {
         .collect()
 }
 
-/// Returns a text that describes the state of a file, and changes when the file changes. `stamp` is `None` for a file
-/// that does not exist.
+/// Returns a text that contains the path of a file and its `stamp`: the length and the modification time of the file.
+/// The stamp of a file that does not exist is `None`.
 pub fn stamp_line(path: &Path, stamp: Option<Entry>) -> String {
     format!("{} {stamp:?}\n", path.display())
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use scene::{Geometry, Scene};
 
-/// Adds up the memory of scenes. A mesh that several scenes share is counted once. The scenes must not be dropped
-/// before this value, because `SceneMemory` recognizes meshes by their addresses.
+/// Adds up the memory of scenes. A mesh that several scenes share is counted once. `SceneMemory` recognizes a mesh by
+/// its address, so no scene that was added may be dropped before the last call of [`add`](Self::add).
 #[derive(Debug, Default)]
 pub struct SceneMemory {
     bytes: u64,
@@ -15,7 +15,7 @@ pub struct SceneMemory {
 }
 
 impl SceneMemory {
-    /// Adds a scene, and returns the memory of all scenes in bytes.
+    /// Adds the memory of a scene, and returns the sum for all scenes that were added, in bytes.
     pub fn add(&mut self, scene: &Scene) -> u64 {
         let mut bytes = 1024_u64;
         for object in scene.objects() {

@@ -1,6 +1,6 @@
-// Runs every recipe in scenes/ that tests/digests.txt lists, and checks that the digests equal those in the list. Then
-// reads the odd and hostile files of the fuzz tests, none of which may crash the engine. At the end, checks which files
-// npm would publish. Usage: scenes.mjs PACKAGE
+// Runs every recipe in scenes/ that tests/digests.txt lists, and compares its digest with the digest in the list. Then
+// reads the corpus of the fuzz tests, which contains malformed files. No file may crash the engine. At the end, checks
+// which files npm would publish. Usage: scenes.mjs PACKAGE
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync } from "node:fs";
@@ -34,14 +34,14 @@ for (const [name, digest] of digests) {
 console.log(`${digests.length} digests are the same in WebAssembly`);
 session.free();
 
-// The function `run`, which needs no session.
+// The function `run` needs no session.
 const result = await run(`(recipe: 1, steps: [Load(path: "a.obj", name: "a"), Save(path: "b.obj")])`,
     { "a.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" });
 assert(result.succeeded, JSON.stringify(result.problems));
 assert.deepEqual([...result.meshes.a.triangles], [0, 1, 2]);
 assert(new TextDecoder().decode(result.outputs["b.obj"]).includes("f 1 2 3"));
 
-// Each quantity has a color for each element.
+// The colors of a quantity contain one color for each element of the mesh.
 const colored = await Session.create();
 colored.run("(recipe: 1, steps: [Torus(major: 1, minor: 0.4, name: \"a\")])");
 const arrays = colored.mesh("a");
@@ -80,7 +80,8 @@ for (let i = 0; i < 20; i += 1) {
 const milliseconds = (performance.now() - begin) / 20;
 console.log(`a check takes ${milliseconds.toFixed(1)} ms`);
 
-// Odd files, some of which earlier versions of the readers could not handle.
+// Each file of the corpus of the fuzz tests is either read, or refused with a message. Earlier versions of the readers
+// failed on some of these files.
 let n = 0;
 for (const path of filesBelow("tests/fuzz/corpus")) {
     const format = path.split("/")[3];

@@ -1,4 +1,4 @@
-// Compresses a file with brotli as FILE.br, prints both sizes, and fails if the compressed size exceeds the limit:
+// Compresses FILE with brotli to FILE.br, and prints both sizes. Fails if the compressed size exceeds the limit. Usage:
 // size.mjs FILE
 import { readFileSync, writeFileSync } from "node:fs";
 import { brotliCompressSync, constants } from "node:zlib";

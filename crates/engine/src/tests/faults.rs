@@ -8,8 +8,8 @@ use store::{Entry, NewFile, StoreError};
 
 use super::*;
 
-/// Files in memory. The call with the number `fails_at`, counted from 1, fails. Removing temporary folders never fails,
-/// because it is best effort.
+/// A store in memory in which one call fails: the call with the number `fails_at`, counted from 1. Calls that remove a
+/// folder are not counted and never fail, because the removal of temporary folders is best effort.
 #[derive(Debug, Default)]
 struct Faulty {
     files: Memory,
@@ -89,8 +89,8 @@ struct FaultyFile<'s> {
 impl Write for FaultyFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.store.call()?;
-        // The file accepts only a part of the bytes, and the next write can fail. A file on a disk that becomes full
-        // behaves in the same way.
+        // One call writes at most 100 bytes, so a later call can fail after a part of the file was written. A disk that
+        // becomes full has the same effect.
         self.file.write(&bytes[..bytes.len().min(100)])
     }
 

@@ -8,11 +8,12 @@ use eframe::egui_wgpu::{self, RenderState, WgpuSetup};
 use eframe::wgpu;
 use egui_kittest::wgpu::{create_render_state, default_wgpu_setup};
 
-/// Returns the setup of an adapter, which is a software renderer if there is one. `None` if no adapter can draw scenes.
+/// Returns the setup of a graphics adapter. A software renderer is preferred. Returns `None` if no adapter can draw
+/// scenes.
 pub(crate) fn setup() -> Option<WgpuSetup> {
     let mut setup = default_wgpu_setup();
     if let WgpuSetup::CreateNew(new) = &mut setup {
-        // The painter does not draw with OpenGL.
+        // The painter of the viewer does not support OpenGL.
         new.instance_descriptor.backends.remove(wgpu::Backends::GL);
     }
     let instance = wait(setup.new_instance());
@@ -30,7 +31,7 @@ pub(crate) fn setup() -> Option<WgpuSetup> {
     Some(setup)
 }
 
-/// Returns a device. `None` if no adapter can draw scenes.
+/// Returns a graphics device, or `None` if no adapter can draw scenes.
 pub(crate) fn device() -> Option<RenderState> {
     let options = egui_wgpu::RendererOptions::PREDICTABLE;
     Some(create_render_state(setup()?, options))

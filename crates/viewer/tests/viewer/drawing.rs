@@ -57,7 +57,8 @@ impl Stage {
         self.painter.read().unwrap()
     }
 
-    /// Returns the picture of the renderer without a graphics card, with a transparent background.
+    /// Returns the picture of the scene that the crate `render` draws without a graphics card. The background is
+    /// transparent.
     pub(crate) fn expected(&self, scene: &Scene, shading: Shading) -> Image {
         let camera = render::Camera::LookAt {
             from: self.camera.eye().to_array(),
@@ -78,7 +79,7 @@ impl Stage {
     }
 }
 
-/// Checks that `percent` of the pixels that a surface covers have the expected color.
+/// Checks the pixels that are opaque in `expected`: at least `percent` % of them have nearly the same color in `found`.
 pub(crate) fn assert_near(found: &Image, expected: &Image, percent: usize) {
     let inside = expected.pixels.iter().zip(&found.pixels);
     let inside: Vec<_> = inside.filter(|(e, _)| e[3] == 255).collect();
@@ -93,7 +94,7 @@ fn picture(state: &RenderState, scene: &Scene, look: &Look) -> Image {
     Stage::new(state, scene, look).draw(look, &Overlay::default())
 }
 
-/// Keeps a picture for people to look at.
+/// Writes a picture to the temporary folder of the tests, where people can look at the picture.
 pub(crate) fn keep(name: &str, image: &Image) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("viewer");
     std::fs::create_dir_all(&folder).unwrap();
@@ -175,7 +176,7 @@ fn wireframes_show_the_edges_of_polygons_and_no_diagonals() {
         n_different(&image, &plain)
     };
     let on_surface = count(Wireframe::Shaded);
-    // Nine edges are visible. Each is about 100 pixels long.
+    // Nine edges of the cube are visible. Each edge is about 100 pixels long.
     assert!((400..2500).contains(&on_surface), "{on_surface}");
     assert!(count(Wireframe::HiddenLine) > 5000);
     assert!(count(Wireframe::Lines) > 5000);
@@ -238,7 +239,7 @@ fn only_new_objects_are_uploaded() {
     assert_eq!(stage.painter.n_uploads(), 2);
     stage.painter.set_scene(&scene.clone(), &look);
     assert_eq!(stage.painter.n_uploads(), 2);
-    // A change of one mesh uploads this mesh only.
+    // If one mesh changes, only this mesh is uploaded again.
     let (geometry, _) = scene.parts_mut("b").unwrap();
     *geometry = scene::Geometry::Mesh(std::sync::Arc::new(shapes::cube()));
     stage.painter.set_scene(&scene, &look);
@@ -273,7 +274,7 @@ fn numbers_are_shown_as_colors() {
 fn views_from_opposite_sides_and_both_upward_axes_differ() {
     let Some(state) = device() else { return };
     let mut mesh = shapes::cube();
-    // The mesh becomes a wedge without symmetry.
+    // The loop deforms the cube to a wedge that has no symmetry.
     for p in mesh.positions_mut() {
         *p = DVec3::new(p.x, p.y * (1.0 + p.x), p.z * (1.3 + 0.5 * p.y + 0.2 * p.x));
     }

@@ -1,4 +1,4 @@
-//! Recipes are edited in the window.
+//! Tests that edit recipes in the window.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -249,7 +249,7 @@ fn an_unsaved_text_is_offered_after_a_crash() {
     window.press(Key::L);
     let lost = window.text();
     let Window { harness, folder } = window;
-    // The window ends without the events of closing, as in a crash.
+    // `forget` ends the window without the events that closing a window sends. A crash has the same effect.
     std::mem::forget(harness);
     let start = Start {
         path: None,

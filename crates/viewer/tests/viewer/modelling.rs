@@ -1,4 +1,4 @@
-//! Meshes are modelled in the window: panels with live previews, handles, selections, animations and paths of files.
+//! Tests that model meshes in the window: panels with live previews, handles, selections, animations and file paths.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -209,8 +209,8 @@ fn dragging_a_ring_rotates_and_dragging_the_center_scales_the_picked_face() {
     };
     let center = pick_front(&mut window);
     window.press_with(Modifiers::SHIFT, Key::R);
-    // The drag below starts on the ring around the z axis. In the directions that are parallel to the screen, a ring
-    // has a radius of 84 logical pixels.
+    // The drag below starts on the handle that is a ring around the z axis. The radius of a ring is 84 logical pixels,
+    // measured in a direction parallel to the screen.
     let back = DVec3::new(0.46, 0.37, 0.8).normalize();
     let aside = back.cross(DVec3::Y).normalize();
     let pixels = window.at(center + aside * 0.1).distance(window.at(center));
@@ -286,7 +286,7 @@ fn the_played_edits_are_saved_as_an_animation() {
     ] {
         window.harness.get_by_label(name).click();
         window.settle();
-        // The dialog suggests a file beside the recipe.
+        // The dialog suggests a file in the folder of the recipe. The key accepts this file.
         window.press(Key::Enter);
         let file = window.path(file);
         let end = Instant::now() + Duration::from_mins(1);
@@ -296,7 +296,7 @@ fn the_played_edits_are_saved_as_an_animation() {
         }
         let bytes = std::fs::read(&file).unwrap();
         assert!(bytes.starts_with(start));
-        // The next key removes the notice.
+        // The notice "Saved .." disappears when the next key is pressed.
         window.press(Key::Escape);
     }
 }
@@ -376,7 +376,8 @@ fn without_dialogs_of_the_system_a_list_shows_folders_and_files() {
     };
     assert!(window.harness.query_by_label("above.ron").is_some());
     click(&mut window, "models/");
-    // Neither `notes.txt` nor the files of the other folder are listed.
+    // The list of the folder `models` contains neither `notes.txt`, which is no recipe, nor the files of the parent
+    // folder.
     for name in ["notes.txt", "above.ron"] {
         assert!(window.harness.query_by_label(name).is_none(), "{name}");
     }

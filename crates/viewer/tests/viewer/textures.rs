@@ -1,4 +1,5 @@
-//! Textures in pictures of the graphics card, compared with the renderer without a graphics card.
+//! Compares pictures of textured surfaces: one drawn by the graphics card, the other by the crate `render` without a
+//! graphics card.
 
 use geometry::shapes;
 use mesh::{DVec2, Mesh};
@@ -108,7 +109,7 @@ fn surfaces_are_invisible_where_their_texture_is_cut_out() {
         let opaque = square(material(0), [0.0, 1.0]);
         let mut stage = Stage::new(&state, &opaque, &plain());
         let opaque = stage.draw(&plain(), &Overlay::default());
-        // Half of the 24 fields are cut out, so about as many pixels are cut out as remain.
+        // Half of the 24 fields of the texture are transparent, so about half of the pixels of the square are cut out.
         let differs = |(p, q): &(&[u8; 4], &[u8; 4])| p != q;
         let n_cut = found
             .pixels

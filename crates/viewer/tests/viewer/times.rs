@@ -1,4 +1,5 @@
-//! Measurements: `cargo test -p meshwright-viewer times -- --ignored --nocapture --test-threads 1`.
+//! Measures times and memory of the viewer. To run the measurements:
+//! `cargo test -p meshwright-viewer times -- --ignored --nocapture --test-threads 1`.
 
 use std::time::{Duration, Instant};
 
@@ -17,7 +18,7 @@ use crate::window::Window;
 const MILLION: &str =
     "(recipe: 1, steps: [Torus(name: \"torus\", around: 1000, across: 500), Triangulate()])";
 
-/// Conversion, upload and drawing of growing meshes.
+/// Prints the times of converting, uploading and drawing meshes of increasing size.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_growing_meshes() {
@@ -44,8 +45,8 @@ fn times_of_growing_meshes() {
     }
 }
 
-/// The time from a key press until the frame with the changed mesh was drawn, and the times of the parts of this
-/// process.
+/// Prints the time until the frame of the key press is drawn, the time until the frame with the changed mesh is drawn,
+/// and the time of the step alone.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_an_edit_of_a_million_triangles() {
@@ -84,7 +85,7 @@ fn times_of_an_edit_of_a_million_triangles() {
     }
 }
 
-/// The time of the engine for an edit, without a window.
+/// Prints the times of the parts of an edit, without a window: selection, text, new scene, end of the run, and upload.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_the_engine_for_an_edit_of_a_million_triangles() {
@@ -128,7 +129,7 @@ fn times_of_the_engine_for_an_edit_of_a_million_triangles() {
     }
 }
 
-/// The time of a pick on a million triangles.
+/// Prints the times of picks on a million triangles.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_picks_on_a_million_triangles() {

@@ -1,4 +1,5 @@
-//! Tools of the view and the panels: arrows, lasso, player, labels, layout, and a window without graphics.
+//! Tests of the arrows, the lasso, the player of edits, the labels of widgets, the layout, control points, and a window
+//! that cannot draw.
 
 use std::sync::Arc;
 
@@ -38,11 +39,11 @@ fn dragging_an_arrow_moves_the_picked_face() {
     );
     let scene = window.harness.state().editor().view().scene;
     let moved = scene.objects()[0].as_mesh().unwrap().face_center(face) - center;
-    // In the picture, the face has moved as far as the cursor: 40 pixels.
+    // On the screen, the face has moved by the same distance as the cursor: 40 pixels.
     let pixels = window.at(center + moved).distance(window.at(center));
     assert!((pixels - 40.0).abs() < 2.0, "{pixels} {moved}");
     assert!(moved.x == 0.0 && moved.z == 0.0);
-    // A drag beside the arrows turns the view, and the text stays.
+    // A drag that starts beside the arrows turns the view and does not change the recipe.
     let beside = base + Vec2::new(150.0, 120.0);
     window.drag(&[beside, beside + Vec2::splat(30.0)], Modifiers::NONE);
     assert_eq!(window.text(), text);
@@ -91,13 +92,14 @@ fn the_edits_of_a_step_are_played_forwards_and_backwards() {
         .set_value_accesskit(5.0);
     window.settle();
     window.harness.get_by_label("Play").click();
-    // At the end, the button Play starts from the beginning. The player then stops at the end.
+    // The slider has set the player to the last edit. The button Play therefore restarts at the first edit, and stops
+    // after the last edit.
     for _ in 0..80 {
         window.harness.run_steps(8);
     }
     assert!(shows(&window, "Done: flip e"));
     assert_eq!(window.text(), text);
-    // Any change of the recipe ends the player.
+    // Any change of the recipe closes the player.
     window.press(Key::L);
     assert!(!shows(&window, "Edits of the step"));
 }
@@ -136,7 +138,7 @@ fn every_widget_of_the_window_has_a_label() {
             .collect()
     };
     assert_eq!(unnamed(&window), [""; 0]);
-    // The keys open panels with many kinds of parameters, and the dialogs. All their widgets must have names, too.
+    // Each key opens a panel or a dialog. Together, they have many kinds of widgets, and every widget must have a name.
     for key in [Key::F, Key::L, Key::I, Key::H] {
         window.press(key);
         assert_eq!(unnamed(&window), [""; 0], "after {key:?}");
@@ -219,7 +221,7 @@ fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text()
     let unsaved = window.text();
     let device = device.get().unwrap();
     device.destroy();
-    // The device reports its loss only after it has completed the previous commands.
+    // The device completes its earlier commands before it reports that it is lost.
     device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
     let mut closes = false;
     for _ in 0..3 {
@@ -320,11 +322,11 @@ fn dragging_a_control_point_is_one_step_and_one_undo() {
         window.drag(&through, Modifiers::NONE);
         let outline = editor::Outline::of(&window.text());
         assert_eq!(outline.steps.len(), 2, "{}", window.text());
-        // The control point is below the cursor.
+        // The control point has moved to the position of the cursor.
         let moved = points(&window)[index];
         assert!(moved.distance(before[index]) > 0.1, "{moved}");
         assert!(window.at(moved).distance(through[3]) < 1.5, "{moved}");
-        // The camera stays where it was.
+        // The drag does not move the camera.
         assert!(window.at(before[index]).distance(at) < 1e-3);
         window.press_with(Modifiers::COMMAND, Key::Z);
         assert_eq!(window.text(), text);

@@ -1,4 +1,4 @@
-//! A window that is driven by clicks and keys, as a person would.
+//! A window of the editor. Tests send clicks and keys to the window, as a person would.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -21,7 +21,8 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// Opens a window with a file of this name and content. `None` if there is no graphics adapter.
+    /// Writes a file with this name and content, and opens a window with this file. Returns `None` if there is no
+    /// graphics adapter.
     pub(crate) fn open(name: &str, content: &str) -> Option<Self> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
@@ -29,14 +30,15 @@ impl Window {
         Self::open_file(path, folder)
     }
 
-    /// Opens a window with a file. `None` if there is no graphics adapter.
+    /// Opens a window with a file, and waits until the run has ended. Returns `None` if there is no graphics adapter.
     pub(crate) fn open_file(path: PathBuf, folder: tempfile::TempDir) -> Option<Self> {
         let mut window = Self::start(path, folder)?;
         window.settle();
         Some(window)
     }
 
-    /// Creates a window that opens a file, and does not wait for the run. `None` if there is no graphics adapter.
+    /// Opens a window with a file, but does not wait until the run has ended. Returns `None` if there is no graphics
+    /// adapter.
     pub(crate) fn start(path: PathBuf, folder: tempfile::TempDir) -> Option<Self> {
         let setup = setup()?;
         let start = Start {
@@ -58,7 +60,7 @@ impl Window {
         self.folder.path().join(name)
     }
 
-    /// Waits until the run has ended and the window is still.
+    /// Waits until the run of the recipe has ended and the window no longer changes.
     pub(crate) fn settle(&mut self) {
         let end = Instant::now() + Duration::from_mins(1);
         loop {

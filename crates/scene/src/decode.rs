@@ -1,5 +1,6 @@
 //! Decodes a scene from its canonical form, which is the sequence of bytes that [`Scene::encode`] writes. The bytes can
-//! be corrupt, so lengths are checked before memory is allocated, and the arrays of a mesh are validated.
+//! be corrupt. The decoder therefore checks each length before it allocates memory, and validates the arrays of each
+//! mesh.
 
 use std::sync::Arc;
 
@@ -27,7 +28,7 @@ pub trait ArraySource {
     fn read(&mut self, bytes: &mut [u8]) -> Result<(), DecodeError>;
 }
 
-/// A source without arrays, for a canonical form that contains all arrays.
+/// A source that has no arrays. It is used for a canonical form that contains the contents of all arrays.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoArrays;
 
@@ -50,7 +51,7 @@ pub enum DecodeError {
     /// More bytes or arrays follow after the end of the scene.
     #[error("expected the end of the scene, found more data")]
     TrailingData,
-    /// The bytes differ from the expected form.
+    /// The bytes are not in the canonical form. The value describes the expected bytes.
     #[error("expected {0}")]
     Expected(&'static str),
     /// A long array cannot be read.
@@ -68,9 +69,9 @@ pub enum DecodeError {
 }
 
 impl Scene {
-    /// Decodes a scene from its canonical form. The contents of arrays of at least `min_long` bytes are not in the form
-    /// itself and are read from `arrays`. To decode the output of [`encode`](Self::encode), pass `usize::MAX` and
-    /// [`NoArrays`].
+    /// Decodes a scene from its canonical form. The contents of arrays of at least `min_long` bytes are read from
+    /// `arrays`, because the form does not contain them. To decode the output of [`encode`](Self::encode), pass
+    /// `usize::MAX` and [`NoArrays`].
     ///
     /// # Errors
     ///
@@ -138,8 +139,8 @@ impl<'a> Decoder<'a> {
         std::str::from_utf8(self.take(n)?).map_err(|_| DecodeError::Expected("a text in UTF-8"))
     }
 
-    /// Reads a name and returns the value that `all` has for this name. If there is none, the error contains
-    /// `expected`, a description of the value.
+    /// Reads a name and returns the value with this name in `all`. If `all` does not contain the name, returns an error
+    /// with the text `expected`.
     fn named<T: Copy>(
         &mut self,
         all: &[(&str, T)],
@@ -152,7 +153,7 @@ impl<'a> Decoder<'a> {
             .ok_or(DecodeError::Expected(expected))
     }
 
-    /// Reads an array of numbers, or of structs of numbers, where each number has `width` bytes.
+    /// Reads an array whose elements are numbers or structs of numbers. Each number has `width` bytes.
     pub(crate) fn array<T: AnyBitPattern + NoUninit>(
         &mut self,
         width: usize,
@@ -198,7 +199,7 @@ impl<'a> Decoder<'a> {
         &mut self,
         mut next: impl FnMut(&mut Self) -> Result<T, DecodeError>,
     ) -> Result<Vec<T>, DecodeError> {
-        // No memory is reserved in advance, because a corrupt length could be huge.
+        // The list grows while it is read, because memory that is reserved for a corrupt length could be huge.
         let n = self.len()?;
         (0..n).try_fold(Vec::new(), |mut list, _| {
             list.push(next(self)?);
@@ -240,7 +241,7 @@ impl<'a> Decoder<'a> {
         if m.base_color[3] < 1.0 {
             m.alpha = AlphaMode::Blend;
         }
-        // If the material has other properties, the next number is the marker `MORE`.
+        // The marker `MORE` follows only if the material has properties in addition to those that were read above.
         if !self.rest.starts_with(&MORE.to_le_bytes()) {
             return Ok(m);
         }
@@ -371,7 +372,7 @@ impl<'a> Decoder<'a> {
     }
 }
 
-/// Returns the value at index `code` of `all`. `expected` describes the value in an error.
+/// Returns the value at index `code` in `all`. If the index is too large, returns an error with the text `expected`.
 fn value_of_code<T: Copy>(all: &[T], code: u32, expected: &'static str) -> Result<T, DecodeError> {
     let value = all.get(code as usize).copied();
     value.ok_or(DecodeError::Expected(expected))

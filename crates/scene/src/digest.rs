@@ -1,17 +1,17 @@
 //! The canonical form of a scene as bytes, and its digest.
 //!
-//! The canonical form contains every array and every string with its length. Numbers are little-endian and keep all
-//! their bits. Two scenes have the same canonical form if and only if they have the same graph and the same objects in
-//! the same order, bit for bit. Removed elements of meshes are ignored in this comparison.
+//! In the canonical form, every array and every string is preceded by its length. Numbers are little-endian and are
+//! written with all their bits. Two scenes have the same canonical form if and only if they have the same graph and the
+//! same objects in the same order, bit for bit. Removed elements of meshes are not written.
 //!
 //! If the scene has a graph, the graph follows the objects. A scene without a graph has the same form as in the
 //! first version of the canonical form, which had no graphs.
 //!
 //! A material is written as its name, base color, metalness, roughness and the path of its base color texture. Other
-//! properties are written only if they differ from their defaults: first a marker ([`MORE`]), then each property with
-//! its name. If all other properties of a material have their defaults, the material has the same form as in the first
-//! version of the canonical form. Extras of a material and names of a texture follow after another marker, and only if
-//! they are present.
+//! properties are written only if they differ from their defaults: the marker [`MORE`] comes first, then each property
+//! with its name. If all of these other properties have their defaults, the material has the same form as in the first
+//! version of the canonical form. The extras of a material and the names of a texture follow after a second marker, and
+//! only if they are present.
 
 use std::fmt;
 
@@ -92,7 +92,8 @@ impl Scene {
         rest
     }
 
-    /// Passes the canonical form to `sink`, with a flag that is true if the bytes are the content of an array.
+    /// Passes the canonical form to `sink`, piece by piece. Each piece has a flag that is true if the piece is the
+    /// content of an array.
     fn encode_to(&self, sink: &mut dyn FnMut(&[u8], bool)) {
         let mut encoder = Encoder { sink };
         encoder.text(FORM);
@@ -113,8 +114,8 @@ pub(crate) const GRAPH: &str = "graph";
 
 /// The first string of the canonical form. The string contains the version of the canonical form.
 pub(crate) const FORM: &str = "meshwright scene 1";
-/// The marker before the other properties of a material. Where the marker is written, a decoder could also expect the
-/// length of a string. The marker cannot be mistaken for such a length, because no string is that long.
+/// The marker that precedes the optional properties of a material. In place of the marker, the form can contain the
+/// length of a string. A decoder cannot confuse the two, because no string has `u64::MAX` bytes.
 pub(crate) const MORE: u64 = u64::MAX;
 
 /// The name of a texture in the canonical form, and a function that returns the field of a material for this texture.
@@ -146,7 +147,7 @@ pub(crate) const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
 /// All filters. The index of a filter in this list is its code in the canonical form.
 pub(crate) const FILTERS: [Option<Filter>; 3] = [None, Some(Filter::Nearest), Some(Filter::Linear)];
 
-/// Returns the index of a value in a list of all values.
+/// Returns the index of `value` in `all`, or 0 if `all` does not contain the value.
 fn code<T: PartialEq>(all: &[T], value: &T) -> u32 {
     (0..)
         .zip(all)
@@ -154,8 +155,8 @@ fn code<T: PartialEq>(all: &[T], value: &T) -> u32 {
         .unwrap_or(0)
 }
 
-/// Returns the named numbers of a material. The named numbers are all numeric properties except base color, metalness
-/// and roughness, which are always written.
+/// Returns the numeric properties of a material with their names. Base color, metalness and roughness are left out,
+/// because they are always written, without a name.
 fn named_numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
     let flag = |is: bool| vec![f64::from(u8::from(is))];
     let alpha = match m.alpha {
@@ -189,7 +190,7 @@ impl Encoder<'_> {
         (self.sink)(text.as_bytes(), false);
     }
 
-    /// Writes an array of numbers, or of structs of numbers, where each number has `width` bytes.
+    /// Writes an array whose elements are numbers or structs of numbers. Each number has `width` bytes.
     pub(crate) fn array<T: NoUninit>(&mut self, values: &[T], width: usize) {
         self.len(values.len());
         let bytes: &[u8] = bytemuck::cast_slice(values);
@@ -237,8 +238,8 @@ impl Encoder<'_> {
         self.text(path.unwrap_or(""));
 
         let mut default = Material::new("");
-        // In the first version of the canonical form, a surface was drawn as transparent if and only if the alpha of
-        // its base color was less than 1.
+        // Materials had no alpha mode in the first version of the canonical form: a surface was drawn as transparent if
+        // and only if the alpha of its base color was less than 1. The default mode reproduces this rule.
         if m.base_color[3] < 1.0 {
             default.alpha = AlphaMode::Blend;
         }
@@ -384,8 +385,8 @@ mod tests {
 
     #[test]
     fn the_digest_of_a_known_scene_never_changes() {
-        // This is the digest in the first version of the canonical form. If this digest changes, every digest that
-        // users have recorded is wrong, and `FORM` needs a new version.
+        // The expected digest was recorded with the first version of the canonical form. If this digest changes, every
+        // digest that users have recorded is wrong, and `FORM` needs a new version number.
         assert_eq!(
             scene(shapes::square()).digest().to_string(),
             "2387ae96ff730dac6ab311d51d5863e9"

@@ -2,7 +2,8 @@
 
 use mesh::{DVec3, Element, Mesh};
 
-/// The location of an element at the time of an error.
+/// The location of an element that an error refers to. The positions are copied when the error occurs, so they stay the
+/// same if the mesh changes later.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorLocation {
     /// The name of the object that contains the element.
@@ -17,7 +18,7 @@ impl ErrorLocation {
     /// The maximum number of locations that are stored for one error.
     pub const MAX_ELEMENTS: usize = 10_000;
 
-    /// The name of a location where an element is expected but missing.
+    /// The name of a location at which the mesh has no element, although an element was expected there.
     pub const EXPECTED: &'static str = "expected";
 
     /// Returns the location of an element of an object; `None` if the mesh does not have the element.

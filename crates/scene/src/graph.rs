@@ -7,9 +7,9 @@
 //! ```
 //!
 //! A mesh has coordinates in its own space. The placement of a node is an affine map from the space of the node to the
-//! space of its parent. The placements of a node and its ancestors, applied in turn, map the space of its object to the
-//! scene. If the node has a skin, the joints of the skin place the object instead. An object that no node references
-//! appears once, and its own space is the space of the scene.
+//! space of its parent. The product of the placements of a node and all its ancestors maps the space of its object to
+//! the scene. If the node has a skin, the joints of the skin place the object instead. An object that no node
+//! references appears once, and its own space is the space of the scene.
 
 mod edit;
 mod form;
@@ -24,7 +24,7 @@ use glam::DAffine3;
 pub use placement::Placement;
 pub use rig::{AnimatedProperty, Animation, AnimationSampler, Channel, Interpolation, Skin};
 
-/// The nodes of a scene, with their cameras and lights. A parent comes before its children.
+/// The nodes of a scene, with their cameras and lights. In the list of nodes, a parent comes before its children.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Graph {
     nodes: Vec<Node>,
@@ -38,9 +38,9 @@ pub struct Graph {
     pub animations: Vec<Animation>,
     /// Arrays of numbers. Skins and animations refer to these arrays by index, and can share an array.
     pub arrays: Vec<Vec<f32>>,
-    /// Other parts of a glTF file: each value is a JSON object, and each key is the name of the part. `asset` has the
-    /// copyright and the extras of the asset, `scene` has the name and the extras of the scene, and `root` has the
-    /// extras of the document.
+    /// The parts of a glTF file that have no field in [`Graph`]. Each key is the name of a part, and each value is a
+    /// JSON object. `asset` has the copyright and the extras of the asset, `scene` has the name and the extras of the
+    /// scene, and `root` has the extras of the document.
     pub document: BTreeMap<String, String>,
     /// The labels of meshes. Each key is the name of the object that has the mesh.
     labels: BTreeMap<String, MeshLabel>,
@@ -63,14 +63,14 @@ pub struct Node {
     pub light: Option<usize>,
     /// The index, in [`Graph::skins`], of the skin that deforms the object.
     pub skin: Option<usize>,
-    /// The weights of the morph targets of the object. If empty, the weights of the [label](MeshLabel::weights) are
-    /// used.
+    /// The weights of the morph targets of the object. If empty, the default weights of the mesh apply: see
+    /// [`MeshLabel::weights`].
     pub weights: Vec<f64>,
     /// Application-specific data (`extras` in glTF), as JSON.
     pub extras: Option<String>,
 }
 
-/// Properties that a file stores for a mesh, but that have no field in [`Object`](crate::Object).
+/// The properties of a mesh that a file stores, but that have no field in [`Object`](crate::Object).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshLabel {
     /// The name of the mesh, which can differ from the name of the object.
@@ -80,7 +80,8 @@ pub struct MeshLabel {
     pub extras: Option<String>,
     /// The default weights of the morph targets, one for each target.
     pub weights: Vec<f64>,
-    /// The number of sets of four joints that the file stores for each vertex. 0 if the mesh has no joints.
+    /// The number of sets of joints that the file stores for each vertex. A set has four joints. 0 if the mesh has no
+    /// joints.
     pub weight_sets: u32,
 }
 
@@ -143,7 +144,7 @@ impl Graph {
         let mut maps: Vec<DAffine3> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             let own = node.placement.to_affine();
-            // The map of a root is not multiplied by the identity, because that would turn -0 into 0.
+            // The map of a root node is not multiplied by the identity, because the product could turn -0 into 0.
             maps.push(match node.parent {
                 Some(parent) => maps[parent] * own,
                 None => own,

@@ -131,8 +131,8 @@ impl Scene {
         &self.graph
     }
 
-    /// Returns the nodes that place objects in the scene, mutably. Each object that a node references must be a mesh of
-    /// the scene.
+    /// Returns a mutable reference to the nodes that place objects in the scene. Each object that a node references
+    /// must be a mesh of the scene.
     pub fn graph_mut(&mut self) -> &mut Graph {
         Arc::make_mut(&mut self.graph)
     }
@@ -149,7 +149,7 @@ impl Scene {
         }
     }
 
-    /// Returns the geometry and the materials of the object with this name, mutably.
+    /// Returns mutable references to the geometry and the materials of the object with this name.
     pub fn parts_mut(&mut self, name: &str) -> Option<(&mut Geometry, &mut Vec<Material>)> {
         self.objects
             .iter_mut()
@@ -197,7 +197,7 @@ impl Scene {
         Some(self.objects.remove(index))
     }
 
-    /// Removes an object from all nodes, so that its own space becomes the space of the scene. The nodes that
+    /// Removes an object from all nodes, so that the coordinates of the object are in scene space. The nodes that
     /// referenced the object are removed, too. A node is kept if it still has children, has a camera or a light, or is
     /// a joint of a skin or the root of such joints.
     pub fn unplace(&mut self, name: &str) {

@@ -55,7 +55,7 @@ impl Material {
         textures.into_iter().flatten()
     }
 
-    /// Returns the textures of the material, to change them.
+    /// Returns mutable references to the textures of the material.
     pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut Texture> {
         let textures = [
             &mut self.base_color_texture,
@@ -114,7 +114,7 @@ pub struct Texture {
     pub sampler: Sampler,
     /// The transform of the texture coordinates before the lookup.
     pub transform: TextureTransform,
-    /// The names in the file.
+    /// The names that a file gives to the texture, the image and the sampler.
     pub names: TextureNames,
 }
 
@@ -130,7 +130,7 @@ pub struct TextureNames {
 }
 
 impl TextureNames {
-    /// Returns the names that are present.
+    /// Returns the names that are not `None`.
     pub fn iter(&self) -> impl Iterator<Item = &str> {
         let names = [&self.texture, &self.image, &self.sampler];
         names.into_iter().flatten().map(String::as_str)
@@ -169,10 +169,10 @@ pub enum Image {
     /// The path of an image file that was not read, or a URI with a scheme. A path is stored as written in the model
     /// file, with `/` as the separator.
     File(String),
-    /// An image file that was read from the folder of the model file. The bytes are shared between copies, as in
-    /// `Embedded`.
+    /// An image file that was read from the folder of the model file. Copies of a material share the bytes, so that
+    /// copying is cheap.
     Loaded {
-        /// The path, as in `File`.
+        /// The path of the image file, in the form that [`Image::File`] describes.
         path: String,
         /// The content of the image file.
         bytes: Arc<[u8]>,
@@ -187,7 +187,7 @@ pub enum Image {
     },
 }
 
-/// Writes the number of bytes of the image file instead of the bytes themselves.
+/// Formats the number of bytes of the image file instead of the bytes.
 impl fmt::Debug for Image {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -203,18 +203,18 @@ impl fmt::Debug for Image {
 pub struct Sampler {
     /// The wrap mode along u and along v.
     pub wrap: [Wrap; 2],
-    /// The filter where pixels of the image are larger than pixels of the screen. `None` leaves the choice to the
-    /// viewer.
+    /// The filter for places where pixels of the image are larger than pixels of the screen. If `None`, the viewer
+    /// chooses a filter.
     pub magnify: Option<Filter>,
-    /// The filter where pixels of the image are smaller than pixels of the screen. `None` leaves the choice to the
-    /// viewer.
+    /// The filter for places where pixels of the image are smaller than pixels of the screen. If `None`, the viewer
+    /// chooses a filter.
     pub minify: Option<Filter>,
     /// The filter between mipmap levels. If `None`, mipmaps are not used. This filter has an effect only if `minify` is
     /// set.
     pub mipmap: Option<Filter>,
 }
 
-/// The appearance of a texture outside its image.
+/// How a texture continues outside its image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
     /// The image is repeated.
@@ -222,7 +222,7 @@ pub enum Wrap {
     Repeat,
     /// The image is repeated, and every second copy is mirrored.
     Mirror,
-    /// The color of the nearest border pixel.
+    /// The color of the nearest pixel at the border of the image.
     Clamp,
 }
 

@@ -10,7 +10,7 @@ use glam::DAffine3;
 use crate::pose::posed;
 use crate::{Geometry, Object, Pose, Scene, transformed};
 
-/// An instance: an object with its placement in the scene.
+/// An object with one of its placements in the scene.
 #[derive(Clone, Debug)]
 pub struct Instance<'s> {
     /// The object that is placed.
@@ -89,7 +89,7 @@ impl Scene {
                 continue;
             }
             // All instances of an object share the counter `number`. If the counter restarted at 1 for each instance,
-            // naming many instances would take quadratic time.
+            // finding the names of many instances would take quadratic time.
             let mut number = 1;
             for &i in nodes {
                 let node = graph.nodes()[i]
@@ -108,8 +108,8 @@ impl Scene {
         instances
     }
 
-    /// Returns the scene without nodes: each instance is an object with points in scene space. Cameras, lights, skins
-    /// and animations are left out.
+    /// Returns a scene without nodes, in which each instance is an object with points in scene space. The returned
+    /// scene has no cameras, lights, skins and animations.
     pub fn placed(&self) -> Cow<'_, Self> {
         if self.graph().is_empty() {
             return Cow::Borrowed(self);

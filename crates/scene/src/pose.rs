@@ -1,4 +1,4 @@
-//! Deforming a mesh by the weights of its morph targets and by the joints of its skin.
+//! Deforms a mesh by the weights of its morph targets and by the joints of its skin.
 
 use std::collections::BTreeMap;
 use std::ops::{Add, Mul};
@@ -53,8 +53,7 @@ impl Pose {
         pose
     }
 
-    /// Whether joints or morph targets change the points of a mesh. The placement of the node is not taken into
-    /// account.
+    /// Whether joints or morph targets change the points of a mesh, apart from the placement of its node.
     pub(crate) fn deforms(&self) -> bool {
         self.joints.is_some() || self.weights.iter().any(|&w| w != 0.0)
     }
@@ -278,7 +277,8 @@ impl Pose {
     }
 }
 
-/// Returns an old value plus the weighted changes. `place` returns the index at which the values of a domain are read.
+/// Adds the weighted changes to an old value. For the domain of a change, `place` returns the index of the value that
+/// is added.
 fn plus_changes<T>(old: T, changes: &[Change], place: impl Fn(Domain) -> usize) -> T
 where
     T: Value + Add<Output = T>,
@@ -290,8 +290,8 @@ where
     })
 }
 
-/// Returns a mesh in this pose, with points in scene space. If the mesh has no skin, `to_scene` places it. All ids stay
-/// the same.
+/// Returns the mesh in the given pose, with points in scene space. If the pose has no joints, `to_scene` maps the
+/// points to scene space. All ids stay the same.
 pub(crate) fn posed(mesh: &Mesh, pose: &Pose, to_scene: &DAffine3) -> Mesh {
     let mut morphed = mesh.clone();
     let attributes = mesh.attributes();

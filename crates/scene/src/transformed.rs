@@ -20,7 +20,7 @@ pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
     mapped(mesh.clone(), is_mirror, |_| map)
 }
 
-/// A linear map with its cofactor matrix.
+/// An affine map, and the cofactor matrix of its linear part.
 #[derive(Clone, Copy)]
 pub(crate) struct LinearMap {
     map: DAffine3,
@@ -119,8 +119,8 @@ pub fn transform_tangents(mesh: &mut Mesh, linear: &DMat3) {
     change_tangents(mesh, |_| *linear);
 }
 
-/// Transforms the direction of a tangent. A reflection negates the sign of the tangent. A direction that the map sends
-/// to zero stays unchanged.
+/// Transforms the direction (x, y, z) of a tangent. A reflection negates the sign of the tangent (w). If the map sends
+/// the direction to zero, the tangent stays unchanged.
 pub fn transform_tangent(tangent: DVec4, linear: &DMat3) -> DVec4 {
     let image = *linear * tangent.truncate();
     let largest = image.abs().max_element();
@@ -135,7 +135,7 @@ pub fn transform_tangent(tangent: DVec4, linear: &DMat3) -> DVec4 {
     (image / largest).normalize().extend(sign * tangent.w)
 }
 
-/// Works like [`transform_tangents`], with a different map for each vertex.
+/// Does the same as [`transform_tangents`], but with a separate map for each vertex.
 fn change_tangents(mesh: &mut Mesh, linear: impl Fn(usize) -> DMat3) {
     if let Some(tangents) = mesh.get_mut(TANGENT) {
         for (v, tangent) in tangents.iter_mut().enumerate() {

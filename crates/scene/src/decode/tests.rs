@@ -153,7 +153,7 @@ fn a_length_that_exceeds_the_memory_is_refused() {
         Scene::decode(&bytes, usize::MAX, &mut NoArrays),
         Err(DecodeError::Truncated)
     );
-    // Decoding also fails if the form gives a length that is too large for the first array of a mesh.
+    // If the form declares a length for the first array of a mesh that is too large, decoding also fails.
     let mut scene = Scene::new();
     scene.insert(Object::mesh("a", shapes::cube())).unwrap();
     let (mut rest, mut arrays) = encoded_with_separate_arrays(&scene, 1);
@@ -208,7 +208,7 @@ proptest! {
         };
         let mut c = mesh.connectivity().clone();
         for (array, index, id) in changes {
-            // Most of the random ids belong to an existing element.
+            // Most of the random ids are ids of existing elements.
             match array {
                 0 => { let n = c.next.len(); c.next[index % n] = HalfEdgeId::new(id % (n + 1)); }
                 1 => { let n = c.origin.len(); c.origin[index % n] = VertexId::new(id % (mesh.n_vertices() + 1)); }

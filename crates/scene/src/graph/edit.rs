@@ -1,4 +1,4 @@
-//! Updates a graph after changes of the objects.
+//! Updates the nodes of a graph when objects are added, removed, renamed or copied.
 
 use super::{AnimatedProperty, Graph, MeshLabel, Node};
 
@@ -29,7 +29,8 @@ impl Graph {
             }
         }
         self.keep_nodes(&keep);
-        // A node without an object has no morph targets, so channels that animate its weights are removed.
+        // A node without an object has no morph targets. Channels that animate morph weights of the node are therefore
+        // removed.
         let shows: Vec<bool> = self.nodes.iter().map(|n| n.object.is_some()).collect();
         self.retain_channels(|c| c.property != AnimatedProperty::Weights || shows[c.node]);
     }
@@ -48,7 +49,8 @@ impl Graph {
                 is_named = true;
             }
         }
-        // A mesh without a label has the name of the object, so its name changes with the object.
+        // A mesh without a label has no name of its own: its name is that of the object, so nothing else must be
+        // renamed.
         if let Some(mut label) = self.labels.remove(from) {
             if !is_named || label.name.as_deref() == Some(from) {
                 label.name = Some(to.to_owned());
@@ -110,9 +112,9 @@ impl Graph {
         }
     }
 
-    /// Appends the nodes of another graph. The objects of the two graphs must have different names. If
-    /// [`Graph::document`] has a part with the same name but different content in both graphs, the part of this graph
-    /// is kept. Returns the number of parts of `other` that are not kept.
+    /// Appends the nodes of another graph. The objects of the two graphs must have different names. If both graphs have
+    /// a part of [`Graph::document`] with the same name but different content, the part of this graph is kept. Returns
+    /// the number of parts of `other` that are not kept.
     pub fn append(&mut self, other: Self) -> usize {
         let (n, cameras, lights) = (self.nodes.len(), self.cameras.len(), self.lights.len());
         let (skins, arrays) = (self.skins.len(), self.arrays.len());

@@ -18,7 +18,8 @@ pub struct Skin {
     /// The index of the inverse bind matrices in [`Graph::arrays`]: 16 numbers for each joint, column by column. `None`
     /// if all inverse bind matrices are the identity.
     pub inverse_bind_matrices: Option<usize>,
-    /// The index of the node that is the root of the joints, for programs that need this root.
+    /// The index of the node that is the root of the joints. It has no effect on the pose, but other programs can need
+    /// it.
     pub skeleton: Option<usize>,
     /// Application-specific data (`extras` in glTF), as JSON.
     pub extras: Option<String>,
@@ -75,7 +76,7 @@ pub struct Channel {
     pub extras: Option<String>,
 }
 
-/// A property of a node that an animation changes.
+/// A property of a node that an animation can change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnimatedProperty {
     /// The translation of the placement.
@@ -136,7 +137,7 @@ impl Graph {
         self.animations.iter().map(|a| a.channels.len()).sum()
     }
 
-    /// Returns one flag for each node: whether an animation changes its placement.
+    /// Returns one flag for each node: whether an animation changes the placement of the node.
     pub fn animated_flags(&self) -> Vec<bool> {
         let mut flags = vec![false; self.nodes.len()];
         for channel in self.animations.iter().flat_map(|a| &a.channels) {
@@ -218,9 +219,9 @@ impl Graph {
         flags
     }
 
-    /// Updates skins and animations after nodes were removed. `places` has the new index of each node, or `None` if
-    /// the node was removed. Joints and roots of skins must not be removed. The channels of removed nodes are removed,
-    /// and then the animations without a channel.
+    /// Updates skins and animations after nodes were removed. `places` has the new index of each node, or `None` if the
+    /// node was removed. Joints and roots of skins must not be removed. Channels of removed nodes are removed.
+    /// Animations that then have no channel are removed too.
     pub(super) fn renumber_rig(&mut self, places: &[Option<usize>]) {
         for skin in &mut self.skins {
             for node in skin.joints.iter_mut().chain(&mut skin.skeleton) {
@@ -237,8 +238,8 @@ impl Graph {
         self.animations.retain(|a| !a.channels.is_empty());
     }
 
-    /// Removes channels for which `is_kept` is false, then animations without a channel.
-    /// Returns the number of removed channels.
+    /// Removes the channels for which `is_kept` is false. Animations that then have no channel are removed too. Returns
+    /// the number of removed channels.
     pub fn retain_channels(&mut self, is_kept: impl Fn(&Channel) -> bool) -> usize {
         let before = self.n_channels();
         for animation in &mut self.animations {

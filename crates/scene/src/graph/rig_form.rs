@@ -1,6 +1,5 @@
-//! The canonical form of skins, morph weights and animations. These parts follow the other parts of a graph. A
-//! graph without skins, morph weights and animations has the same form as in earlier versions, which did not
-//! support them.
+//! The canonical form of skins, morph weights and animations. These parts follow the other parts of a graph. If a graph
+//! has none of these parts, its form is the same as in earlier versions, which did not support them.
 
 use super::rig::{AnimatedProperty, Animation, AnimationSampler, Channel, Interpolation, Skin};
 use super::{Graph, MeshLabel};

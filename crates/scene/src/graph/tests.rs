@@ -287,7 +287,8 @@ fn transformed_meshes_keep_all_attributes_and_their_normals_stay_normal() {
                 .sum::<DVec3>()
                 .normalize()
         };
-        // By symmetry, the area vectors around a vertex of the octahedron add up to a multiple of its normal.
+        // By symmetry, the sum of the area vectors of the faces around a vertex of the octahedron is parallel to the
+        // normal of the vertex.
         for (v, normal) in result.get(VERTEX_NORMAL).unwrap().iter().enumerate() {
             assert!(normal.distance(outward(&result, v)) < 1e-12, "{scale}: {v}");
         }

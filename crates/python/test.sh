@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds the wheel, installs it into a new virtual environment, and tests it there: its tests, the examples in its
-# documentation and in the book, and its types. The wheel is built in the folder and with the profile of the program, so
-# that most crates are compiled once for both.
+# Builds the wheel, installs it into a new virtual environment, and runs the tests there. The tests run the examples in
+# the documentation of the package and in the book, too. Then mypy checks the types. The wheel is built in the same
+# target folder and with the same profile as the program, so that most crates are compiled only once.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 folder=$PWD/target/ci/python

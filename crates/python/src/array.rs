@@ -1,4 +1,4 @@
-//! Memory that `NumPy` reads without a copy, and values that are copied from arrays.
+//! Arrays that `NumPy` reads without a copy, and functions that copy values from Python buffers.
 
 use std::ffi::c_int;
 use std::sync::Arc;
@@ -9,20 +9,20 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::ffi;
 use pyo3::prelude::*;
 
-/// A read-only view of memory. `numpy.frombuffer` makes an array from this view without a copy. The memory is not freed
-/// as long as a view of it exists.
+/// A read-only view of memory. `numpy.frombuffer` makes a `NumPy` array from this view without a copy. The memory is
+/// not freed before the last of these arrays is freed.
 #[pyclass(frozen, module = "meshwright._core")]
 pub(crate) struct Array {
     memory: Memory,
     /// The type of the numbers, as a `NumPy` type name such as `float64`.
     #[pyo3(get)]
     dtype: &'static str,
-    /// The number of values in each row.
+    /// How many numbers each row has, such as 3 for positions.
     #[pyo3(get)]
     columns: usize,
 }
 
-/// Memory that never changes. The memory is either a part of a shared mesh, or a list that belongs only to this array.
+/// Memory that never changes. The memory belongs to a mesh that several owners share, or to a single [`Array`].
 enum Memory {
     Part(Arc<Mesh>, Part),
     Ids(Vec<u32>),
@@ -31,7 +31,7 @@ enum Memory {
     Column(Values),
 }
 
-/// A part of a mesh.
+/// One of the arrays of a mesh.
 #[derive(Clone)]
 pub(crate) enum Part {
     Positions,
@@ -44,7 +44,8 @@ pub(crate) enum Part {
 }
 
 impl Array {
-    /// Returns a view of a part of a mesh; `None` if the part is an attribute that the mesh does not have.
+    /// Returns a view of one of the arrays of a mesh. Returns `None` if `part` is an attribute that the mesh does not
+    /// have.
     pub(crate) fn of(mesh: &Arc<Mesh>, part: Part) -> Option<Self> {
         let (dtype, columns) = match &part {
             Part::Positions => ("float64", 3),
@@ -127,7 +128,7 @@ fn bytes_of(values: &Values) -> &[u8] {
     }
 }
 
-/// Returns the type of the components of an attribute value, and the number of components.
+/// Returns the `NumPy` type and the number of the components that each value of an attribute has.
 fn kind(values: &Values) -> (&'static str, usize) {
     let dtype = match values {
         Values::Int(_) => "int32",
@@ -172,7 +173,7 @@ impl Array {
     }
 }
 
-/// Copies the values of a contiguous buffer, each row of which has `columns` numbers.
+/// Copies the values of a contiguous Python buffer. Each row of the buffer has `columns` numbers.
 pub(crate) fn values_from(buffer: &Bound<'_, PyAny>, columns: usize) -> PyResult<Values> {
     let py = buffer.py();
     let untyped = PyUntypedBuffer::get(buffer)?;

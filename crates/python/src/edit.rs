@@ -9,12 +9,12 @@ use pyo3::prelude::*;
 use crate::errors::edit_error;
 use crate::mesh_views::{Mesh, number};
 
-/// A mesh that is being edited. It is a copy, so the original mesh never changes. A refused edit raises an error and
-/// changes nothing.
+/// A copy of a mesh for editing. The original mesh never changes. If an edit is refused, the method raises an error and
+/// the copy does not change.
 #[pyclass(frozen, module = "meshwright._core")]
 pub(crate) struct Editor(Mutex<Kernel>);
 
-/// Converts a number to an id.
+/// Converts a number from Python to an id. Raises an error for the number that stands for "no element".
 fn id<I: Id>(number: u32) -> PyResult<I> {
     if number == u32::MAX {
         return Err(PyValueError::new_err("an id must not exceed 2^32 - 2"));
@@ -48,7 +48,8 @@ impl Editor {
         Self(Mutex::new((*mesh.0).clone()))
     }
 
-    /// A copy of the mesh with all edits so far. Its elements are renumbered so that the ids have no gaps.
+    /// Returns a copy of the mesh after the edits that were made so far. The elements of the copy are renumbered, so
+    /// that the ids have no gaps.
     fn mesh(&self) -> Mesh {
         let mut mesh = self
             .0
@@ -65,7 +66,7 @@ impl Editor {
         (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces())
     }
 
-    /// The edge between two vertices; `None` if they share no edge.
+    /// Returns the edge between two vertices, or `None` if no edge connects them.
     fn edge(&self, py: Python<'_>, v: u32, w: u32) -> PyResult<Option<u32>> {
         let (v, w) = (id::<VertexId>(v)?, id::<VertexId>(w)?);
         self.edit(py, |mesh| {

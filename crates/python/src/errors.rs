@@ -1,4 +1,4 @@
-//! The exceptions. Their classes are written in Python.
+//! Creates the exceptions of the package. Their classes are defined in the Python module `meshwright.errors`.
 
 use mesh::EditError;
 use pyo3::prelude::*;

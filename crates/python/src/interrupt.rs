@@ -16,8 +16,8 @@ use pyo3::prelude::*;
 /// The time between two checks for signals. The progress callback is called at the same interval.
 const INTERVAL: Duration = Duration::from_millis(40);
 
-/// The id of the process in which the worker threads were started. If this process is forked, its threads do not exist
-/// in the new process.
+/// The id of the process that started the worker threads, or 0 if no threads were started. If this process is forked,
+/// the new process does not have these threads.
 static PROCESS: AtomicU32 = AtomicU32::new(0);
 
 /// Receives progress reports on the worker threads and keeps them for the calling thread.
@@ -30,7 +30,8 @@ pub(crate) struct Monitor {
 
 impl Progress for Monitor {
     fn advance(&self, task: &str, done: u64, total: u64) -> bool {
-        // If the calling thread is reading the last report at this moment, the new report is skipped.
+        // If the calling thread is reading the latest report at this moment, the new report is dropped, so that the
+        // worker does not wait.
         if let Ok(mut latest) = self.latest.try_lock() {
             *latest = Some((task.to_owned(), done, total));
         }
@@ -96,8 +97,8 @@ pub(crate) fn run<T: Send>(
     }
 }
 
-/// Tells the calling thread, when dropped, that the work has ended. The calling thread therefore stops waiting even
-/// after a panic.
+/// When this value is dropped, it tells the calling thread that the work has ended. A panic also drops the value, so
+/// the calling thread does not wait forever.
 struct End<'a>(&'a AtomicBool, thread::Thread);
 
 impl Drop for End<'_> {

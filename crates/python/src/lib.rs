@@ -1,5 +1,5 @@
-//! The compiled part of the Python package `meshwright`. Users call the Python sources in `python/meshwright`. These
-//! sources add names, types and documentation to the compiled part.
+//! The compiled part of the Python package `meshwright`. Users call the Python modules in `python/meshwright`. These
+//! modules call the compiled part, and add types and documentation.
 //!
 //! ```text
 //! scenes.rs     Scene: the objects of a scene; runs one step on a scene
@@ -40,8 +40,8 @@ fn schema() -> String {
     recipe::schema(&REGISTRY).to_string()
 }
 
-/// Returns the operations as JSON: for each, its name, its summary, an example, and whether a step can have the field
-/// `on`, which names objects.
+/// Returns the operations as JSON. Each entry has the name, the summary and an example of an operation, and whether its
+/// steps can have the field `on`, which names objects.
 #[pyfunction]
 fn operations() -> String {
     let entries = REGISTRY.entries().iter().map(|entry| {

@@ -71,7 +71,8 @@ impl Mesh {
         Array::of(&self.0, part).ok_or_else(|| PyKeyError::new_err("array"))
     }
 
-    /// The vertex of each corner, face by face, and the index of the first corner of each face.
+    /// Returns the vertex of each corner, face by face, and the index of the first corner of each face, followed by the
+    /// number of all corners.
     fn polygons(&self, py: Python<'_>) -> PyResult<(Array, Array)> {
         let (corners, starts) = run(py, None, |_| {
             let mesh = &self.0;
@@ -93,8 +94,8 @@ impl Mesh {
         Ok(Array::ids(half_edges.into_iter().map(number).collect()))
     }
 
-    /// For each attribute: the kind of elements that have it (the domain), its name, the type of its values, and the
-    /// rule by which edits change its values.
+    /// Returns the domain, the name, the type of the values and the rule of each attribute. The domain is the kind of
+    /// elements that have the attribute. Edits change the values by the rule.
     fn attributes(&self) -> Vec<(String, String, &'static str, &'static str)> {
         let columns = self.0.attributes().iter();
         let described = columns.map(|(domain, column)| {
@@ -109,7 +110,7 @@ impl Mesh {
         described.collect()
     }
 
-    /// The values of an attribute. Values of corners are copied, and their order is that of the corners, face by face.
+    /// Returns the values of an attribute. The values of corners are copied, in the order of the corners, face by face.
     fn attribute(&self, py: Python<'_>, domain_name: &str, name: &str) -> PyResult<Array> {
         let domain = domain(domain_name)?;
         let missing = || PyKeyError::new_err(name.to_owned());
@@ -130,8 +131,8 @@ impl Mesh {
         Ok(Array::column(values))
     }
 
-    /// A copy of the mesh with an additional attribute. The values of the new attribute are a contiguous buffer of
-    /// rows.
+    /// Returns a copy of the mesh with an additional attribute. `values` is a contiguous buffer with one row for each
+    /// element.
     fn with_attribute(
         &self,
         py: Python<'_>,
@@ -196,7 +197,7 @@ impl Mesh {
         Ok(Self(Arc::new(mesh)))
     }
 
-    /// A copy of the mesh with new positions. The positions are given as a contiguous buffer of three numbers for each
+    /// Returns a copy of the mesh with new positions. `positions` is a contiguous buffer with three numbers for each
     /// vertex.
     fn with_positions(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<Self> {
         let Values::Vec3(positions) = values_from(positions, 3)? else {
@@ -244,9 +245,9 @@ impl Mesh {
         Ok(bounds.map(|bounds| bounds.map(|point| point.to_array())))
     }
 
-    /// The distances from this surface to another surface, and from that surface to this one. For each direction, three
-    /// numbers: the largest distance that was found, an upper bound of all distances, and the mean distance. `None` if
-    /// one of the meshes has no faces.
+    /// Returns the distances from this surface to another surface, and from the other surface to this one. Each
+    /// direction has three numbers: the largest distance that was found, an upper bound of all distances, and the mean
+    /// distance. Returns `None` if one of the meshes has no faces.
     fn distance(
         &self,
         py: Python<'_>,
@@ -266,8 +267,8 @@ impl Mesh {
         self.0.euler_characteristic()
     }
 
-    /// A description of each broken invariant of the half-edge structure. The list is empty for every mesh that this
-    /// package creates.
+    /// Describes each violated invariant of the half-edge structure. The list is empty for every mesh that this package
+    /// creates.
     fn defects(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         run(py, None, |_| {
             self.0.defects().iter().map(ToString::to_string).collect()

@@ -65,7 +65,7 @@ impl Recipe {
         Ok(())
     }
 
-    /// The name, type, value and documentation of each parameter.
+    /// Returns the name, the type, the value and the documentation of each parameter.
     fn parameters(&self) -> Vec<(String, &'static str, String, Option<String>)> {
         let scope = self.0.recipe.scopes.first();
         let parameters = scope.map_or(&[][..], |scope| &scope.parameters).iter();
@@ -91,7 +91,8 @@ impl Recipe {
         self.0.recipe.expectations.len()
     }
 
-    /// The largest amount of memory that all meshes together take after any step, in bytes; `None` if it is unknown.
+    /// Returns an upper bound of the memory that all meshes together take after any step, in bytes. Returns `None` if
+    /// there is no bound.
     fn peak_bytes(&self) -> Option<u64> {
         let peaks = self.0.forecast.steps.iter().map(|step| step.bytes.max);
         peaks.max().filter(|&peak| peak < u64::MAX)

@@ -1,4 +1,4 @@
-//! Scenes, and single steps that run on them.
+//! Scenes, and functions that run single steps on scenes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -19,20 +19,20 @@ use crate::errors::{error, problems, recipe_error};
 use crate::interrupt::{Monitor, run};
 use crate::mesh_views::{Mesh, domain, number};
 
-/// The name of the output folder of runs whose files are kept in memory.
+/// The name of the output folder if the files of a step are kept in memory.
 const OUT: &str = "out";
 
 /// A scene, which never changes.
 #[pyclass(frozen, module = "meshwright._core")]
 pub(crate) struct Scene(pub(crate) Kernel);
 
-/// The place where a step reads and writes files: folders on disk, or memory.
+/// Where a step reads and writes files: in folders on disk, or in memory.
 enum Place {
     Disk { input: PathBuf, output: PathBuf },
     Memory(Arc<Memory>),
 }
 
-/// What a step did.
+/// The result of a step that succeeded.
 struct Done {
     scene: Kernel,
     reports: Vec<Report>,
@@ -41,7 +41,7 @@ struct Done {
     written: Vec<(PathBuf, Vec<u8>)>,
 }
 
-/// The errors of a step that could not run or that failed.
+/// The sources and the diagnostics of a step that could not run or that failed.
 struct Failed(Vec<Source>, Vec<Diagnostic>);
 
 fn step(
@@ -183,8 +183,8 @@ impl Scene {
         Self(self.0.only(|name| names.iter().any(|n| n == name)))
     }
 
-    /// Whether `only` with these names gives the same scene as the operation Delete with all other names. The two
-    /// results differ if the scene has cameras, lights or other nodes that `only` leaves out and Delete keeps.
+    /// Whether `only` gives the same graph as the operation Delete with all other names. The results differ if the
+    /// scene has cameras, lights or other nodes that `only` leaves out and Delete keeps.
     fn only_is_delete(&self, names: Vec<String>) -> bool {
         let mut deleted = self.0.clone();
         for object in self.0.objects() {
@@ -195,8 +195,8 @@ impl Scene {
         self.only(names).0.graph() == deleted.graph()
     }
 
-    /// A copy of the scene in which this mesh is the geometry of the object `name`. The object is added if it does not
-    /// exist.
+    /// Returns a copy of the scene in which the object `name` has this mesh as its geometry. If the object does not
+    /// exist, it is added.
     fn with_mesh(&self, name: &str, mesh: &Mesh) -> PyResult<Self> {
         let mut scene = self.0.clone();
         if let Some((geometry, _)) = scene.parts_mut(name) {
@@ -209,8 +209,8 @@ impl Scene {
         Ok(Self(scene))
     }
 
-    /// A scene with the objects of both scenes, and the nodes that place them. `names` maps names of objects of `other`
-    /// to new names.
+    /// Returns a scene with the objects and the nodes of both scenes. The objects of `other` are renamed first: `names`
+    /// maps old names to new names.
     fn joined(&self, other: &Self, names: BTreeMap<String, String>) -> PyResult<Self> {
         let message = |error: scene::DuplicateName| PyValueError::new_err(error.to_string());
         let (mut scene, mut other) = (self.0.clone(), other.0.clone());
@@ -222,12 +222,12 @@ impl Scene {
         Ok(Self(scene))
     }
 
-    /// A copy of the scene without nodes. Each object is moved to the place that its nodes give it.
+    /// Returns a copy of the scene without nodes. The nodes of each object are applied to the points of the object.
     fn placed(&self) -> Self {
         Self(self.0.placed().into_owned())
     }
 
-    /// Whether the scene has nodes, which place its objects.
+    /// Whether the scene has nodes or other parts of a graph, such as cameras.
     fn has_nodes(&self) -> bool {
         !self.0.graph().is_empty()
     }
@@ -237,9 +237,9 @@ impl Scene {
         run(py, None, |_| self.0.digest().to_string())
     }
 
-    /// Runs the steps of a recipe on this scene. `files` are input files in memory. If they are given, output files
-    /// stay in memory, too. If `files` is `None`, files are read from and written to disk. Returns the new scene, and a
-    /// dictionary. The dictionary has the report of each step, the warnings, and the outputs that are kept in memory.
+    /// Runs the steps of a recipe on this scene. If `files` is given, it contains the input files, and output files are
+    /// kept in memory. If `files` is `None`, files are read from disk and written to disk. Returns the new scene and a
+    /// dictionary with the report of each step, the warnings, and the outputs that are kept in memory.
     #[pyo3(signature = (text, input, output, files, budget, progress))]
     #[expect(
         clippy::too_many_arguments,

@@ -1,4 +1,5 @@
-// The viewer of notebooks: shows triangles with orbit, wireframe and colours. `build.sh` bundles it with three.js.
+// The viewer for notebooks. It shows triangles in colors, with an optional wireframe, and the mouse turns the view.
+// `build.sh` bundles it with three.js.
 import {
     BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, HemisphereLight, LineBasicMaterial, LineSegments, Mesh,
     MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
@@ -7,8 +8,9 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
 
-/// Shows a mesh in an element. `data` has `positions` (float32), `triangles` and `edges` (uint32) and perhaps `colors` (uint8) as
-/// base64, and a `caption`.
+/// Shows a mesh in an HTML element. `data` has the arrays `positions` (float32), `triangles` and `edges` (uint32), and
+/// optionally `colors` (uint8), each encoded as base64. `caption` is a text, and `wireframe` says whether edges are
+/// drawn at first.
 export function show(element, data) {
     const positions = new BufferAttribute(new Float32Array(bytes(data.positions)), 3);
     const faces = new BufferGeometry();
@@ -42,7 +44,7 @@ export function show(element, data) {
     element.append(renderer.domElement);
     const controls = new OrbitControls(camera, renderer.domElement);
     controls.target.copy(center);
-    // Draws only after a change, so that an idle page uses no processor.
+    // The view is drawn only after a change, so that a page that is not used takes no processor time.
     const draw = () => {
         light.position.copy(camera.position);
         renderer.render(scene, camera);

@@ -14,7 +14,7 @@ MAX_ID = 2**32 - 2
 
 
 def view(array: _core.Array) -> NDArray[Any]:
-    """A read-only NumPy array over the memory of `array`."""
+    """Returns a read-only NumPy array that shares the memory of `array`."""
     dtype = np.dtype(array.dtype)
     shape = (-1,) if array.columns == 1 else (-1, array.columns)
     if len(array) == 0:
@@ -39,7 +39,7 @@ def numeric(values: ArrayLike, what: str) -> NDArray[Any]:
 
 
 def points(values: ArrayLike, what: str = "vertices") -> NDArray[np.float64]:
-    """Points as contiguous numbers of shape (n, 3)."""
+    """Converts points to a contiguous `float64` array of shape (n, 3)."""
     array = numeric(values, what)
     if array.size == 0 and array.ndim <= 2:
         array = array.reshape(0, 3)
@@ -49,7 +49,7 @@ def points(values: ArrayLike, what: str = "vertices") -> NDArray[np.float64]:
 
 
 def indices(values: ArrayLike, what: str) -> NDArray[np.uint32]:
-    """Whole numbers from 0 to 2^32 - 2 as contiguous `uint32` of the same shape."""
+    """Converts whole numbers from 0 to 2^32 - 2 to a contiguous `uint32` array of the same shape."""
     array = numeric(values, what)
     if array.size == 0:
         return np.zeros(array.shape, np.uint32)

@@ -19,22 +19,22 @@ from ._recipe import Recipe
 from ._scene import fsspec, is_address, write_bytes
 from .errors import Error
 
-#: The number of parts for each thread of a cluster. Files vary in size, so a thread that is done early takes another
-#: part.
+#: The default number of parts of a batch for each thread of a cluster. Files vary in size, so a thread that finishes a
+#: part early runs another part.
 PARTS_PER_THREAD = 8
-#: The memory of a process besides its meshes, in bytes.
+#: The memory that a process takes in addition to its meshes, in bytes.
 PROCESS_BYTES = 128 << 20
 
 
 @dataclass(frozen=True)
 class Row:
-    """The result of one input file, or of one parameter set."""
+    """The result of one run of the recipe, with one input file, one parameter set, or both."""
 
-    #: The input file. Empty if there is none.
+    #: The path of the input file. Empty if the batch has no input files.
     input: str
-    #: ok, failed, or skipped after Ctrl-C.
+    #: "ok", "failed", or "skipped" because of Ctrl-C.
     state: Literal["ok", "failed", "skipped"]
-    #: The failed step.
+    #: The label of the step that failed.
     step: str | None
     #: The errors of the failed step.
     message: str | None
@@ -44,7 +44,7 @@ class Row:
     edges: int | None
     #: The number of faces.
     faces: int | None
-    #: The digest of the scene.
+    #: The digest of the scene at the end.
     digest: str | None
     #: The data that were lost, for example because a file format cannot store them.
     losses: list[str]
@@ -52,15 +52,16 @@ class Row:
     outputs: list[dict[str, Any]]
     #: How long the run took.
     seconds: float
-    #: The number of the parameter set, from 1. Its outputs are in a folder with this number as its name.
+    #: The number of the parameter set, counted from 1. The outputs of the set are in a folder with this number as its
+    #: name.
     set: int | None = None
     #: The values of the parameter set, as strings.
     values: dict[str, str] = field(default_factory=dict)
 
 
 class Report(Sequence[Row]):
-    """The report of a batch: a row for each input file and parameter set, in the order of the paths and sets. It is the
-    same report as that of ``meshwright batch``."""
+    """The report of a batch: a row for each input file and parameter set, in the order of the paths and sets. The
+    program ``meshwright batch`` writes the same report."""
 
     def __init__(self, header: dict[str, Any], rows: list[Row]) -> None:
         #: The recipe, its digest, the parameters and the numbers of rows, as in the JSON report of the program.
@@ -69,7 +70,7 @@ class Report(Sequence[Row]):
 
     @property
     def failed(self) -> list[Row]:
-        """The rows of the files that failed."""
+        """The rows of the runs that failed."""
         return [row for row in self if row.state == "failed"]
 
     def __getitem__(self, index: Any) -> Any:
@@ -112,20 +113,22 @@ def batch(
     >>> [(row.values["levels"], row.faces) for row in report]                     # doctest: +SKIP
     [('1', 80), ('2', 320)]
 
-    A batch that was interrupted, or whose workers were killed, continues when it is called again: a file is not processed
-    again if the recipe, the parameters and every file that the run reads are unchanged. Files are compared by their
-    content. The engine and the number of parts can differ from those of the earlier call. A file that fails is a row of
-    the report, and does not stop the batch.
+    If a batch was interrupted, or its workers were killed, call it again to continue. A file is not processed again if
+    the recipe, the parameters and every file that the run reads are unchanged. Files are compared by their content. The
+    second call can use another engine and another number of parts. If a file fails, its row of the report says why, and
+    the batch continues.
 
     :param recipe: The recipe, or the path of its file. With `inputs`, the recipe needs a parameter of type Path, which
         receives the path of the input.
-    :param inputs: Files, or patterns: ``*`` and ``?`` match within one folder, ``**`` any number of folders. Addresses such
-        as ``s3://bucket/*.obj`` need fsspec, and are copied to the folder ``inputs`` in `out` first.
+    :param inputs: Files, or patterns: ``*`` and ``?`` match characters of one name, and ``**`` matches any number of
+        folders. Addresses such as ``s3://bucket/*.obj`` need fsspec, and are copied to the folder ``inputs`` in `out`
+        first.
     :param sets: Parameter sets: ``[{"levels": 1}, {"levels": 2}]``. The recipe runs with each set, for each input if there
         are inputs. The outputs of a set are in a folder in `out` that is named after the number of the set, from 1.
-    :param engine: "local" uses the processors of this machine; "dask" starts a local cluster of Dask, and a client of Dask
-        uses its cluster; "ray" uses Ray. The workers of a cluster need this package, and access to the same folders. Each task
-        states its estimated memory: to Ray as ``memory``, and to Dask as the resource ``MEMORY`` if workers have it.
+    :param engine: "local" uses the processors of this machine, "dask" starts a local cluster of Dask, and "ray" uses
+        Ray. A client of Dask can also be given; the batch then runs on the cluster of the client. The workers of a
+        cluster need this package, and access to the same folders. Each task states its estimated memory: to Ray as
+        ``memory``, and to Dask as the resource ``MEMORY`` if workers have it.
     :param out: The folder for outputs, and for the state of the batch.
     :param values: Values of the other parameters of the recipe.
     :param preset: The name of a preset of the recipe.
@@ -134,11 +137,11 @@ def batch(
     :param retry_failed: Whether files that failed before are processed again.
     :param parts: The number of tasks on a cluster. Defaults to 8 for each thread of the workers.
     :param report: A file for the report: .json, .jsonl or .csv.
-    :param budget: The memory budget for meshes of a process, such as "2GiB". Defaults to 8 GiB.
+    :param budget: The memory budget for the meshes of each process, such as "2GiB". Defaults to 8 GiB.
     :param upload: An address such as ``s3://bucket/clean``, to which outputs are copied at the end.
-    :param progress: A callable that receives ``"batch"``, ``"files"``, the number of finished files and the total number of files;
-        or `True` for a bar of tqdm. Each file is counted once for each parameter set. On a cluster, the callable is
-        called when a part is done. An exception cancels the batch.
+    :param progress: A callable that receives ``"batch"``, ``"files"``, the number of finished files and the total
+        number of files; or `True` for a bar of tqdm. Each file is counted once for each parameter set. On a cluster,
+        the callable is called when a part is done. If the callable raises an exception, the batch is canceled.
     """
     folder = Path(out).absolute()
     folder.mkdir(parents=True, exist_ok=True)
@@ -195,8 +198,8 @@ def batch(
 
 
 def downloaded(pattern: str, folder: Path) -> dict[str, str]:
-    """Copies the files of an address to a folder. Returns the address of each copy. A copy whose content differs is
-    replaced. Whether a file must run again depends on its content only."""
+    """Copies the files at an address, which can be a pattern, to a folder. Returns the address of each copy. An
+    existing copy is replaced only if its content differs."""
     system, path = fsspec().core.url_to_fs(pattern)
     found = sorted(system.glob(path)) if any(c in path for c in "*?[") else [path]
     copies = {}
@@ -212,7 +215,8 @@ def downloaded(pattern: str, folder: Path) -> dict[str, str]:
 
 
 def recipe_file(recipe: Recipe | str | os.PathLike[str], folder: Path) -> str:
-    """The path of the file of a recipe. A recipe that was built in Python is written to the folder of outputs."""
+    """Returns the path of a file that contains the recipe. If the recipe was built in Python, it is first written to
+    `folder`."""
     if not isinstance(recipe, Recipe):
         return os.fspath(recipe)
     path = Path(recipe.path)
@@ -233,7 +237,7 @@ class Counter:
         self.total = total
 
     def add(self, files: int) -> None:
-        """Counts files."""
+        """Adds to the number of files that are done, and reports the new number."""
         self.done += files
         if self.show is not None:
             self.show("batch", "files", self.done, self.total)
@@ -244,13 +248,13 @@ class Counter:
             self.add(1)
 
     def end(self) -> None:
-        """Counts the files that were finished in earlier runs, for which the program prints no line."""
+        """Counts the files for which the program prints no line, because an earlier run has finished them."""
         self.add(self.total - self.done)
 
 
 @dataclass(frozen=True)
 class Task:
-    """A part of a batch."""
+    """A part of a batch, which one process runs."""
 
     #: The arguments of the program. The last argument is the path of the report.
     arguments: list[str]
@@ -261,7 +265,7 @@ class Task:
 
 
 def run_parts(engine: Any, arguments: list[str], temporary: str, parts: int | None, show: Progress | None) -> list[str]:
-    """Runs the parts of a batch on a cluster, and returns their reports."""
+    """Runs the parts of a batch on a cluster, and returns the paths of their reports."""
 
     def divided(threads: int) -> list[Task]:
         return tasks(arguments, temporary, parts or PARTS_PER_THREAD * max(threads, 1))
@@ -270,8 +274,8 @@ def run_parts(engine: Any, arguments: list[str], temporary: str, parts: int | No
         ran = run_on_ray(needed("ray"), divided, show)
     elif engine == "dask":
         distributed = needed("distributed")
-        # The tasks are processes, so one worker with a thread for each processor is enough. The memory of the worker is
-        # the memory of the machine.
+        # Each task starts its own process, so one worker with a thread for each processor is enough. The worker offers
+        # the memory of the whole machine.
         memory = {"MEMORY": distributed.system.MEMORY_LIMIT}
         threads = needed("dask.system").CPU_COUNT
         with distributed.LocalCluster(
@@ -335,7 +339,8 @@ def run_on_dask(client: Any, divided: Callable[[int], list[Task]], show: Progres
             run_part,
             task.arguments,
             os.getcwd(),
-            # Dask treats each part as new work, so that a second call reads the files again.
+            # With `pure=False`, Dask runs a part even if it has run a part with the same arguments before. The files
+            # can have changed in the meantime.
             pure=False,
             retries=3,
             resources=None if room is None else {"MEMORY": min(task.bytes, room)},
@@ -349,11 +354,11 @@ def run_on_dask(client: Any, divided: Callable[[int], list[Task]], show: Progres
 
 
 def memory_of_workers(client: Any) -> list[float | None]:
-    """The resource `MEMORY` of each worker of Dask, if the worker has it."""
+    """Returns the resource `MEMORY` of each worker of Dask, or `None` for a worker without this resource."""
     try:
         workers = client.scheduler_info(n_workers=-1)["workers"]
     except TypeError:
-        # Older versions list all workers.
+        # Older versions of Dask have no parameter `n_workers` and list all workers.
         workers = client.scheduler_info()["workers"]
     return [worker["resources"].get("MEMORY") for worker in workers.values()]
 
@@ -376,8 +381,8 @@ def run_part(arguments: list[str], folder: str) -> str:
 
 
 def run_program(arguments: list[str], folder: str, each_line: Callable[[str], object] = lambda line: None) -> None:
-    """Runs the program in a process that ends when this process ends. The last argument is a new file that the program
-    writes. Calls `each_line` with each line that the program prints."""
+    """Runs the program in a process that ends when this process ends. The last argument is the path of the report,
+    which the program writes. Calls `each_line` with each line that the program prints."""
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as errors:
         process = subprocess.Popen(
             [sys.executable, "-m", "meshwright._task", *arguments],
@@ -404,6 +409,6 @@ def run_program(arguments: list[str], folder: str, each_line: Callable[[str], ob
         text = errors.read().strip()
     if code == 130:
         raise KeyboardInterrupt
-    # The code is also 1 if some files fail. Such files are rows of the report.
+    # The exit code is also 1 if some files fail. This is not an error here, because the report lists the failed files.
     if code > 1 or code < 0 or not os.path.exists(os.path.join(folder, arguments[-1])):
         raise Error(text or f"the batch ended with code {code}")

@@ -1,7 +1,8 @@
-"""Conversions from and to other packages, which are imported when a conversion is called.
+"""Converts meshes from and to other packages. A package is imported only when one of its conversions is called.
 
-Attributes of vertices and faces keep their names. Texture coordinates and normals are stored where the other
-package stores them. A warning names the data that the other package cannot hold.
+Attributes of vertices and faces keep their names, except "normal" and "color" in Open3D, which calls them "normals" and
+"colors". For trimesh, texture coordinates and colors are stored as visuals. A warning names the data that the other
+package cannot hold.
 """
 
 from __future__ import annotations
@@ -35,7 +36,8 @@ def plain(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def kept(values: Any) -> NDArray[Any] | None:
-    """The values as an array that an attribute can hold (numbers, or rows of at most 4 numbers), or `None`."""
+    """Returns the values as an array of finite numbers, or of rows of at most 4 numbers. Returns `None` if an attribute
+    cannot hold the values."""
     array = np.asarray(values)
     if array.dtype.kind not in "biuf" or array.ndim not in (1, 2) or array.ndim == 2 and not 1 <= array.shape[1] <= 4:
         return None
@@ -77,7 +79,8 @@ class MeshConversions:
         of_faces: Iterable[tuple[str, Any]],
         uv: NDArray[Any] | None = None,
     ) -> Any:
-        """Makes a mesh from data of another package: points, faces, columns of values, and one `uv` for each vertex.
+        """Makes a mesh from data of another package: points, faces, columns of values, and one texture coordinate `uv`
+        for each point.
 
         If a repair drops a face or splits a vertex, the remaining elements keep their values."""
         this: Any = cls
@@ -102,7 +105,8 @@ class MeshConversions:
 
     @staticmethod
     def _columns(mesh: Mesh, package: str, held: Container[str] = ()) -> dict[str, dict[str, NDArray[Any]]]:
-        """The attributes of vertices and faces as columns. Warns about the other attributes, except those in `held`."""
+        """Returns the attributes of vertices and faces as columns. A warning names all other attributes, except those
+        in `held`."""
         columns: dict[str, dict[str, NDArray[Any]]] = {"vertex": {}, "face": {}}
         left_out = []
         for domain, name, values in mesh.attributes.items_by_domain():
@@ -117,10 +121,10 @@ class MeshConversions:
     # ---- trimesh
 
     def to_trimesh(self) -> Any:
-        """Returns a `trimesh.Trimesh` with the attributes of vertices and faces, and with texture coordinates if corners
-        have the attribute "uv". Faces must be triangles. Vertices keep their order, and nothing is merged. A vertex with
-        several texture coordinates is copied for each of them after the first, with a warning. The copies follow the
-        other vertices."""
+        """Returns a `trimesh.Trimesh` with the attributes of vertices and faces. Corner values of the attribute "uv"
+        become texture coordinates. Without texture coordinates, vertex values of "color" become vertex colors. Faces
+        must be triangles. Vertices keep their order, and nothing is merged. If the corners of a vertex have k different
+        texture coordinates, k - 1 copies of the vertex are added after all other vertices, with a warning."""
         mesh = self._mesh()
         trimesh = module("trimesh")
         columns = self._columns(mesh, "trimesh", {"corner uv"})
@@ -189,8 +193,8 @@ class MeshConversions:
 
     @classmethod
     def from_meshio(cls, other: Any, *, name: str = "mesh") -> Self:
-        """Makes a mesh from the triangles, quads and polygons of a `meshio.Mesh`, with its data of points and cells.
-        Other cells are left out, with a warning."""
+        """Makes a mesh from the triangles, quads and polygons of a `meshio.Mesh`. The data of points and cells become
+        attributes. Other cells are left out, with a warning."""
         blocks = [(i, b) for i, b in enumerate(other.cells) if b.type in ("triangle", "quad", "polygon")]
         left = sorted({b.type for b in other.cells} - {b.type for _, b in blocks})
         if left:
@@ -234,7 +238,8 @@ class MeshConversions:
 
     @classmethod
     def from_pyvista(cls, other: Any, *, name: str = "mesh") -> Self:
-        """Makes a mesh from the faces of a `pyvista.PolyData`, with its data of points and cells."""
+        """Makes a mesh from the faces of a `pyvista.PolyData`, or from the surface of another dataset of pyvista. The
+        data of points and cells become attributes."""
         surface = other if hasattr(other, "faces") else other.extract_surface()
         polygons = surface.GetPolys()
         array = module("pyvista").convert_array

@@ -57,7 +57,8 @@ class Editor:
         self._core.flip(edge)
 
     def split(self, edge: int, at: float = 0.5) -> int:
-        """Inserts a vertex on an edge and joins it to the opposite corners of triangles. Returns the vertex.
+        """Inserts a vertex on an edge. Each face of the edge that is a triangle is cut in two, from the new vertex to
+        the opposite corner. Returns the vertex.
 
         :param at: The position along the edge, strictly between 0 (the first of its :meth:`edge_vertices`) and 1.
         """
@@ -79,11 +80,11 @@ class Editor:
         return self._core.dissolve_vertex(vertex)
 
     def connect(self, v: int, w: int) -> int:
-        """Cuts a face in two between two of its vertices. Returns the new edge."""
+        """Cuts a face in two by an edge between two of its vertices. Returns the new edge."""
         return self._core.connect(v, w)
 
     def poke(self, face: int) -> int:
-        """Inserts a vertex at the center of a face and joins it to the corners. Returns the vertex."""
+        """Inserts a vertex at the center of a face, and connects it to each corner by an edge. Returns the vertex."""
         return self._core.poke(face)
 
     def inset(self, face: int, fraction: float) -> list[int]:
@@ -99,7 +100,7 @@ class Editor:
         return self._core.extrude(list(faces), (x, y, z))
 
     def delete(self, faces: Sequence[int]) -> None:
-        """Deletes all of these faces, or none if the edit is refused. Leaves holes."""
+        """Deletes faces, which leaves holes. If the edit is refused, no face is deleted."""
         self._core.delete(list(faces))
 
     def fill_hole(self, half_edge: int) -> int:

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 from . import _core, _ron
 
-#: What to do if no recipe can repeat a change.
+#: The advice to users if no recipe can repeat a change.
 SAVE = "Save the result as an .mws file and read this file: the recipe then starts with the file."
 
 
 class History:
-    """The steps that made a scene, from the first to the last. Later histories refer to earlier ones. Only the texts of
-    steps are kept alive, not the meshes.
+    """The steps that made a scene, from the first to the last. Each history refers to the history before its last step.
+    The texts of all steps stay in memory, but not the meshes between the steps.
 
     If no recipe can repeat a change, the history contains only the reason.
     """
@@ -26,15 +26,16 @@ class History:
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing was changed yet."""
+        """Whether the history has no steps and no reason."""
         return self._earlier is None and not self._reason
 
     def then(self, step: str) -> History:
-        """This history with one more step."""
+        """Returns this history with one more step."""
         return self if self._reason else History(self, step)
 
     def lost(self, change: str, advice: str = SAVE) -> History:
-        """The history after a `change`, such as "repeat `edit()`", that no recipe can make. Keeps only the first."""
+        """Returns the history after a change that no recipe can make. `change` describes it, such as "repeat `edit()`".
+        Only the first of these changes is recorded."""
         if self._reason:
             return self
         step = self._step if len(self._step) <= 80 else f"{self._step[:77]}..."
@@ -42,7 +43,7 @@ class History:
         return History(reason=f"no recipe can {change}{after}. {advice}")
 
     def only(self, core: _core.Scene, names: Sequence[str]) -> History:
-        """The history of a part of the scene `core`."""
+        """Returns the history of a scene that has only the named objects of the scene `core`."""
         if self._reason:
             return self
         if not core.only_is_delete(names):

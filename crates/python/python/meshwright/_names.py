@@ -1,4 +1,4 @@
-"""The Python names of the values of recipes."""
+"""Converts names and values from the syntax of recipes to Python."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ def python_name(name: str) -> str:
     return name + "_" if keyword.iskeyword(name) else name
 
 
-#: The parts of a value in a recipe.
+#: A token of a value in a recipe: a text in quotes, a word, a number, or a punctuation mark.
 TOKEN = re.compile(r'\s*("[^"]*"|[A-Za-z_]\w*|[-+]?[\d._]+(?:e[-+]?\d+)?|[()\[\]:,])')
 
 
 def in_python(code: str) -> str | None:
-    """The Python expression for a value or a parameter of a recipe: ``sel.Sharp(above=30)`` for `Sharp(above: 30)`.
-    `None` if the text is not such a value."""
+    """Returns the Python expression for a value or a parameter of a recipe: ``sel.Sharp(above=30)`` for
+    `Sharp(above: 30)`. Returns `None` if the text is neither."""
     tokens = TOKEN.findall(code)
     if "".join(tokens) != re.sub(r'\s+(?=(?:[^"]*"[^"]*")*[^"]*$)', "", code):
         return None
@@ -49,12 +49,12 @@ def in_python(code: str) -> str | None:
 
 
 def code_in_python(text: str, quotes: str = "`") -> str:
-    """Rewrites a text about recipes: the values between backquotes are written as in Python."""
+    """Rewrites a text about recipes: converts the values between backquotes to Python."""
     return re.sub(r"`([^`]+)`", lambda code: f"{quotes}{in_python(code[1]) or code[1]}{quotes}", text)
 
 
 def without_steps(text: str) -> str:
-    """Rewrites a text about the steps of a recipe: it then speaks of operations."""
+    """Rewrites a text about the steps of a recipe: replaces the word "step" by "operation"."""
     text = re.sub(r"\b([Aa]) step\b", r"\1n operation", text)
     before = "[Tt]he|[Tt]his|[Ii]n the same|[Ll]ater|earlier|refused|[Oo]ne|two|any"
     text = re.sub(rf"\b({before}) step(s?)\b", r"\1 operation\2", text)
@@ -62,7 +62,8 @@ def without_steps(text: str) -> str:
 
 
 def call(option: Schema) -> str:
-    """How a variant with parameters is written, with `..` for each required value: ``choice.Implicit(time=..)``."""
+    """Returns the Python call for a variant with parameters, such as ``choice.Implicit(time=..)``. Each `..` stands for
+    a required value."""
     name = str(name_of(option))
     inner = resolve(option["properties"][name])
     fields = [f"{python_name(field)}=.." for field in inner.get("required", [])]
@@ -70,12 +71,13 @@ def call(option: Schema) -> str:
 
 
 def module_of(option: Schema) -> str:
-    """The module that has a variant with parameters."""
+    """Returns the name of the Python module that contains a variant with parameters."""
     return "sel" if owner(option) in SELECTIONS else "expect" if owner(option) in EXPECTATIONS else "choice"
 
 
 def word(name: str) -> str:
-    """The Python name of a single word. Most words are also reasons, formats or attributes, and are not changed."""
+    """Returns the Python name of a single word. A word changes only if it is the name of an operation, the name of a
+    variant with parameters in exactly one module, or a keyword of Python."""
     if name in operations():
         return f"{snake(name)}()"
     modules = [("sel", selections()), ("choice", others()), ("expect", variants(EXPECTATIONS))]
@@ -84,7 +86,7 @@ def word(name: str) -> str:
 
 
 def expression(tokens: list[str]) -> tuple[str, list[str]]:
-    """The Python expression for the value at the beginning of the tokens, and the tokens after this value."""
+    """Returns the Python expression for the value at the beginning of the tokens, and the tokens after this value."""
     first, rest = tokens[0], tokens[1:]
     if first in "([":
         parts, rest = arguments(rest)
@@ -103,7 +105,7 @@ def expression(tokens: list[str]) -> tuple[str, list[str]]:
 
 
 def arguments(tokens: list[str]) -> tuple[list[str], list[str]]:
-    """The values before the closing bracket, and the tokens after it."""
+    """Returns the Python expressions for the values before the closing bracket, and the tokens after the bracket."""
     parts = []
     while tokens[0] not in ")]":
         name = ""
@@ -124,7 +126,7 @@ def callable_name(name: str) -> str:
 
 
 def variants(names: list[str]) -> dict[str, list[Any]]:
-    """The variants with parameters of these types, by name."""
+    """Returns the variants of these types by name. Several types can have a variant of the same name."""
     found: dict[str, list[Any]] = {}
     for name in names:
         for option in options(definition(name)):
@@ -142,7 +144,8 @@ def selections() -> dict[str, list[Any]]:
 
 @cache
 def others() -> dict[str, list[Any]]:
-    """The variants with parameters that are neither selections nor expectations."""
+    """Returns the variants that the module `choice` contains: those with parameters that are neither selections nor
+    expectations."""
     skipped = {*SELECTIONS, *EXPECTATIONS, "Step", "Param", "OnLoss", "Refusal", *operations()}
     found = variants([name for name in root()["$defs"] if name not in skipped])
     return {n: a for n, a in found.items() if not all("const" in option for option in a)}
@@ -155,7 +158,7 @@ def owner(option: Schema) -> str:
 
 @cache
 def owners() -> dict[int, str]:
-    """The type of each variant, by its identity."""
+    """Maps the `id()` of the schema of each variant to the name of the type that has the variant."""
     found = {}
     for name in root()["$defs"]:
         schema = definition(name)
@@ -166,13 +169,13 @@ def owners() -> dict[int, str]:
 
 @cache
 def uses() -> dict[str, list[str]]:
-    """Where values of each type are written in Python: ``smooth(by=..)`` for `SmoothBy`."""
+    """Returns the Python calls that take a value of each type: ``smooth(by=..)`` for `SmoothBy`."""
     found: dict[str, list[str]] = {}
 
     def visit(schema: Any, place: str) -> None:
         name = schema.get("$ref", "").rsplit("/", 1)[-1]
         if name == "Quantity":
-            # The other keys can be omitted.
+            # A quantity can be given in place of the mapping, because the other keys of the mapping are optional.
             place = place.replace('{"of": ..}', "..")
         if name in SELECTIONS[:4]:
             return

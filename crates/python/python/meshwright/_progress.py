@@ -13,7 +13,8 @@ Progress = Callable[[str, str, int, int], object]
 
 @contextmanager
 def callback(progress: bool | Progress | None) -> Iterator[Progress | None]:
-    """The callable that shows progress: the given one, or a bar of tqdm for `True`."""
+    """A context manager that returns the callable for progress reports: the given callable, a callable that moves a bar
+    of tqdm if `progress` is `True`, or `None`."""
     if progress is None or progress is False:
         yield None
         return
@@ -35,7 +36,7 @@ def callback(progress: bool | Progress | None) -> Iterator[Progress | None]:
 
 
 def numbers(values: dict[str, Any]) -> list[tuple[str, str]]:
-    """Values of recipe parameters as plain text, as on the command line."""
+    """Converts the values of recipe parameters to text, in the form that the command line accepts."""
 
     def text(value: Any) -> str:
         if isinstance(value, bool):

@@ -20,8 +20,8 @@ ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
 
 class Choice:
-    """A value with a name and parameters, such as ``Longest(count: 12)``. Made by the functions of
-    :mod:`meshwright.sel`, :mod:`meshwright.choice` and :mod:`meshwright.expect`."""
+    """A value with a name and parameters, such as ``Longest(count: 12)``. The functions of :mod:`meshwright.sel`,
+    :mod:`meshwright.choice` and :mod:`meshwright.expect` return these values."""
 
     __slots__ = ("args", "fields", "name")
 
@@ -41,7 +41,7 @@ class Choice:
 
 
 class Ron(str):
-    """A text in RON that is copied into the recipe unchanged."""
+    """A value that is written in RON. The text is copied into the recipe unchanged."""
 
     def __repr__(self) -> str:
         return f"Ron({super().__repr__()})"
@@ -49,14 +49,14 @@ class Ron(str):
 
 @dataclass(frozen=True)
 class Arg:
-    """A parameter of a recipe. Made by :func:`meshwright.arg`."""
+    """A reference to a parameter of a recipe. :func:`meshwright.arg` returns it."""
 
     name: str
     declaration: str = field(repr=False)
 
 
 def quoted(text: str) -> str:
-    """A text in quotes, with control characters as escapes."""
+    """Writes a text in quotes. Quotes, backslashes and control characters are escaped."""
 
     def escape(found: re.Match[str]) -> str:
         return ESCAPES.get(found[0]) or f"\\u{{{ord(found[0]):x}}}"
@@ -65,7 +65,7 @@ def quoted(text: str) -> str:
 
 
 def number(value: float) -> str:
-    """A number that reads back as the same number."""
+    """Writes a number with enough digits to read the same number back."""
     if value != value or value in (float("inf"), float("-inf")):
         raise ValueError(f"{value} is not a finite number")
     text = repr(float(value))
@@ -73,12 +73,12 @@ def number(value: float) -> str:
 
 
 def field_name(name: str) -> str:
-    """The name of a parameter in recipes: ``from`` for the Python name ``from_``."""
+    """Returns the name that a Python parameter has in recipes: ``from`` for ``from_``."""
     return name.removesuffix("_")
 
 
 def struct(fields: Mapping[str, Any], schema: Schema) -> str:
-    """Fields with their names: ``(levels: 2)``."""
+    """Writes fields with their names: ``(levels: 2)``."""
     known = resolve(schema).get("properties", {})
     parts = []
     for python_name, value in fields.items():
@@ -88,7 +88,7 @@ def struct(fields: Mapping[str, Any], schema: Schema) -> str:
 
 
 def write_choice(value: Choice, schema: Schema) -> str:
-    """A variant with its parameters."""
+    """Writes a variant with its parameters."""
     found: Schema = {}
     for option in options(schema):
         if name_of(option) == value.name and "properties" in option:
@@ -108,7 +108,8 @@ def write_choice(value: Choice, schema: Schema) -> str:
 
 
 def ids_of(schema: Schema) -> str | None:
-    """The name of the selection of this schema that lists ids, if there is one."""
+    """Returns the name of the variant of this schema that takes a list of ids, such as ``Faces``. Returns `None` if
+    there is no such variant."""
     for option in options(schema):
         name = name_of(option)
         if name and "properties" in option:
@@ -119,7 +120,7 @@ def ids_of(schema: Schema) -> str | None:
 
 
 def check_list(items: Sequence[Any], schema: Schema) -> None:
-    """Raises `TypeError` for a mask in place of a list of ids, and for a list of ids in place of a selection."""
+    """Raises `TypeError` if a mask is given in place of a list of ids, or a list of ids in place of a selection."""
     lists = [o for o in options(schema) if o.get("type") == "array"]
     takes_integers = any(resolve(o.get("items", {})).get("type") == "integer" for o in lists)
     selection = None if lists else ids_of(schema)
@@ -134,14 +135,14 @@ def check_list(items: Sequence[Any], schema: Schema) -> None:
 
 
 def check_word(word: str, schema: Schema) -> None:
-    """Raises `TypeError` for the name of a variant that has parameters."""
+    """Raises `TypeError` if the word is the name of a variant that has parameters."""
     for option in options(schema):
         if name_of(option) == word and "properties" in option:
             raise TypeError(f'"{word}" has parameters of its own: write {call(option)} without quotes')
 
 
 def write_list(items: Sequence[Any], schema: Schema) -> str:
-    """A list ``[a, b]``, or a tuple ``(a, b)`` where the schema has a fixed length."""
+    """Writes a list ``[a, b]``, or a tuple ``(a, b)`` if the schema has a fixed length."""
     for option in options(schema):
         parts = option.get("prefixItems")
         is_fixed = parts or option.get("minItems") is not None and option.get("minItems") == option.get("maxItems")
@@ -158,7 +159,7 @@ def write_list(items: Sequence[Any], schema: Schema) -> str:
 
 
 def write(value: Any, schema: Schema) -> str:
-    """A value as the text of a recipe."""
+    """Writes a value in the syntax of recipes."""
     if isinstance(value, Ron):
         return str.__str__(value)
     if isinstance(value, Arg):
@@ -199,7 +200,8 @@ def write(value: Any, schema: Schema) -> str:
 
 
 def color_by(value: Any) -> Any:
-    """The value of the parameter `color_by` as a mapping. A text that is not a quantity is the name of an attribute."""
+    """Converts the value of the parameter `color_by` to a mapping. A text that does not name a quantity is taken as the
+    name of an attribute."""
     if value is None or isinstance(value, Ron | Arg):
         return value
     given = dict(value) if isinstance(value, Mapping) else {"of": value}
@@ -210,7 +212,7 @@ def color_by(value: Any) -> Any:
 
 
 def step(operation: str, fields: Mapping[str, Any]) -> str:
-    """A step: ``LoopSubdivide(levels: 2)``. Parameters that are ``None`` are omitted."""
+    """Writes a step: ``LoopSubdivide(levels: 2)``. Parameters that are ``None`` are omitted."""
     given = {name: value for name, value in fields.items() if value is not None}
     if "color_by" in given:
         given["color_by"] = color_by(given["color_by"])
@@ -218,7 +220,7 @@ def step(operation: str, fields: Mapping[str, Any]) -> str:
 
 
 def arguments(value: Any) -> list[Arg]:
-    """The recipe parameters that a value contains."""
+    """Returns the references to recipe parameters that a value contains."""
     if isinstance(value, Arg):
         return [value]
     if isinstance(value, Choice):

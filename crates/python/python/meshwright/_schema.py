@@ -39,7 +39,8 @@ def resolve(schema: Schema) -> Schema:
 
 
 def options(schema: Schema) -> list[Schema]:
-    """The alternatives of a schema, without ``null``; the schema itself if it has none."""
+    """Returns the alternatives of a schema, without ``null``. If the schema has no alternatives, returns only the
+    schema."""
     schema = resolve(schema)
     for key in ("oneOf", "anyOf"):
         if key in schema:
@@ -48,7 +49,7 @@ def options(schema: Schema) -> list[Schema]:
 
 
 def name_of(option: Schema) -> str | None:
-    """The name of the variant that an alternative describes, if it describes one."""
+    """Returns the name of the variant that an alternative describes, or `None` if it does not describe a variant."""
     if "const" in option:
         return str(option["const"])
     required = option.get("required", [])
@@ -60,7 +61,7 @@ def name_of(option: Schema) -> str | None:
 
 
 def words(schema: Schema) -> set[str]:
-    """The words that are written without quotes in a value of this schema."""
+    """Returns the words that a value of this schema can be. Recipes write these words without quotes."""
     found: set[str] = set()
     for option in options(schema):
         if isinstance(option.get("const"), str):

@@ -1,9 +1,10 @@
-"""Writes the Python sources that follow from the schema of the operations: `_operations.py`, `sel.py`, `choice.py` and
-`expect.py`. Run it after the operations or their documentation have changed; a test compares the files with its output.
+"""Generates Python sources from the schema of the operations: `_operations.py`, `sel.py`, `choice.py` and `expect.py`.
+Run this script after the operations or their documentation have changed. A test compares the files with the output of
+the script.
 
     cargo build -p meshwright-python && python crates/python/generate.py
 
-It needs NumPy. It uses the library that cargo built, not an installed package.
+The script needs NumPy. It uses the library that cargo built, not an installed package.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ FOLDER = Path(__file__).parent / "python" / "meshwright"
 
 
 def use_built_library() -> None:
-    """Makes a package from the sources beside this file and the library that cargo built."""
+    """Makes the package `meshwright` from the sources in this repository and the library that cargo built."""
     folder = Path(__file__).resolve().parents[2] / "target"
     found = [path for path in folder.glob("*/*meshwright_core.*") if path.suffix in (".so", ".dylib", ".dll")]
     found.sort(key=lambda path: path.stat().st_mtime, reverse=True)
@@ -61,7 +62,7 @@ from meshwright._schema import definition, name_of, operations, options, resolve
 
 
 def kind(schema: Any, depth: int = 0) -> str:
-    """The Python type of a value."""
+    """Returns the Python type of the values of a schema."""
     found: list[str] = []
     words: list[str] = []
     for option in options(schema):
@@ -114,13 +115,13 @@ def default(schema: Any) -> str | None:
 
 
 def sentence(text: str) -> str:
-    """A paragraph on one line, with its values written as in Python."""
+    """Joins the lines of a paragraph, and converts its values to Python."""
     text = " ".join(text.split()).replace("Without `on`, the step", "Without `on`, a method of a scene")
     return code_in_python(without_steps(text), "``")
 
 
 def described(schema: Any) -> str:
-    """The description of a parameter, or that of its type."""
+    """Returns the description of a parameter, or the description of its type if the parameter has none."""
     return str(schema.get("description") or resolve(schema).get("description") or "")
 
 
@@ -129,7 +130,8 @@ def sentences(text: str) -> list[str]:
 
 
 def for_mesh(text: str) -> str:
-    """A text for a method of a mesh, without the sentences about the other objects of a scene and about recipes."""
+    """Rewrites a text for a method of a mesh: sentences about recipes and about the other objects of a scene are
+    removed."""
     for other, own in (
         ("the folder of the recipe", "the working directory"),
         ("another object", "another mesh"),
@@ -146,12 +148,12 @@ def for_mesh(text: str) -> str:
     return "\n\n".join(paragraphs)
 
 
-#: What starts the description of a parameter that names another object.
+#: The words with which the description of a parameter starts if the parameter names another object.
 OBJECT = "The name of the object "
 
 
 def names_object(schema: Any) -> bool:
-    """Whether a parameter names another object. A method of a mesh takes a mesh instead of the name."""
+    """Whether a parameter names another object. A method of a mesh takes a mesh in place of the name."""
     return str(schema.get("description", "")).startswith(OBJECT)
 
 
@@ -162,7 +164,7 @@ def wrapped(text: str, indent: str, more: str = "") -> list[str]:
 
 
 def block(text: str, indent: str) -> list[str]:
-    """The lines of a paragraph, of a list, or of a table, which becomes a list."""
+    """Returns the lines of a paragraph, a list or a table. A table is converted to a list."""
     rows = [line.strip() for line in text.splitlines()]
     if rows[0].startswith("|"):
         cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in rows[2:]]
@@ -175,14 +177,16 @@ def block(text: str, indent: str) -> list[str]:
 
 
 def method_word(cell: str) -> str:
-    """The first cell of a row of a table: a variant, if it names one."""
+    """Converts the first cell of a row of a table. If the cell names a variant, returns the Python name of the
+    variant."""
     name = cell.strip("`")
     known = name in others() and cell.startswith("`")
     return f"``choice.{name}``" if known else sentence(cell)
 
 
 def variant_lines(schema: Any, indent: str) -> list[str]:
-    """A line for each variant of a parameter, except for selections, of which there are many."""
+    """Returns a list item for each variant of a parameter. The caller does not list selections, because there are too
+    many."""
     lines = []
     for option in options(schema):
         name, text = name_of(option), sentence(option.get("description", "")).partition(". ")[0].rstrip(".")
@@ -194,7 +198,7 @@ def variant_lines(schema: Any, indent: str) -> list[str]:
 
 
 def field_lines(schema: Any, indent: str) -> list[str]:
-    """A line for each key of a parameter that is a mapping or a list of mappings."""
+    """Returns a list item for each key of a parameter that is a mapping or a list of mappings."""
     each = [part for option in options(schema) for part in (options(option["items"]) if option.get("items") else [option])]
     lines = []
     for option in each:
@@ -213,7 +217,7 @@ def takes_selection(schema: Any) -> bool:
 def docstring(
     text: str, fields: list[tuple[str, Any]], indent: str, example: str = "", more: Sequence[str] = ()
 ) -> list[str]:
-    """The lines of a docstring: the text, an example, the parameters, and the lines `more` after the parameters."""
+    """Returns the lines of a docstring: the text, an example, the parameters, and then the lines `more`."""
     first, *paragraphs = filter(str.strip, text.split("\n\n"))
     lines = block('"""' + first, indent)
     for paragraph in paragraphs:
@@ -295,12 +299,14 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
 
 
 def in_working_directory(schema: Any, of_mesh: bool) -> Any:
-    """The schema of a path. Outside a recipe, a relative path is relative to the working directory."""
+    """Returns the schema of a path with a description for Python: outside a recipe, a relative path is relative to the
+    working directory."""
     text = " ".join(schema.get("description", "").split())
     found = RELATIVE.search(text)
     if not found:
         return schema
-    # A recipe also replaces parameters in the path.
+    # The next sentences say that parameters in the path are replaced. Only recipes do this, so a method of a mesh drops
+    # the sentences.
     outside = "a relative path is relative to the working directory"
     if of_mesh:
         return {**schema, "description": f"{text[: found.start()]}{outside[0].upper()}{outside[1:]}."}
@@ -317,17 +323,17 @@ def split_union(text: str) -> list[str]:
     return [*parts, text[start:]]
 
 
-#: The parameter `color_by`, which has short forms in Python.
+#: The description of the parameter `color_by` for Python, where it can have shorter values than in recipes.
 QUANTITIES = ", ".join(f'`"{option["const"]}"`' for option in options(definition("Quantity")) if "const" in option)
 COLOR_BY = (
     f"What the colors of the surface show: a quantity ({QUANTITIES}, or a value of `meshwright.choice`), the name of an "
     "attribute, or a mapping with more details."
 )
-#: What recipes say about a relative path.
+#: Matches the sentence about relative paths in the documentation of operations.
 RELATIVE = re.compile(r"(?:The|A relative) path is relative to (the output folder|the folder of the recipe)\.")
 
 TAGGED = [("Vertices", "vertex"), ("Edges", "edge"), ("Faces", "face")]
-#: Where a method of a mesh leaves its result.
+#: How the result of a method of a mesh can be read.
 RESULTS = {
     "Measure": 'Its ``attributes["mean_curvature"]``, or the attribute of the given name, is an array of the values.',
     "Unwrap": 'Its ``attributes["uv"]`` has the coordinates of the corners, and ``corners`` has their vertices.',
@@ -335,7 +341,7 @@ RESULTS = {
     **{f"Tag{d}": f"Its ``tag(\"{w}\", name)`` is an array of Booleans." for d, w in TAGGED},
 }
 
-#: What the descriptions of selections say only in Python.
+#: Additional sentences in the descriptions of selections for Python.
 MORE = {
     "Where": 'For the 10 % of the vertices with the highest values: ``sel.Where(attribute="curvature", '
     'above=numpy.quantile(m.attributes["curvature"], 0.9))``.',
@@ -373,7 +379,7 @@ def operations_file() -> str:
 
 
 def function(name: str, alternatives: list[Any]) -> list[str]:
-    """A function that makes a variant, or a constant for a variant without parameters."""
+    """Returns the source of a function that makes a variant, or of a constant if the variant has no parameters."""
     if all("const" in a for a in alternatives):
         made = docstring(meaning(alternatives), [], "")
         return [f"{name} = Choice({name!r})", *(literal(line) for line in made), ""]
@@ -386,7 +392,7 @@ def function(name: str, alternatives: list[Any]) -> list[str]:
         for i in structs:
             for n, s in i["properties"].items():
                 merged.setdefault(n, []).append(s)
-        # In another parameter, the variant of the same name has one value without a name.
+        # For other parameters, the variant of the same name has one value without a name.
         plain = [i for i in inner if i not in structs]
         needed = {n for n in merged if not plain and all(n in i.get("required", []) for i in structs)}
         order = [n for n in merged if n in needed] + [n for n in merged if n not in needed]
@@ -417,16 +423,16 @@ def function(name: str, alternatives: list[Any]) -> list[str]:
     return [*lines, f"    return Choice({call})", ""]
 
 
-#: How the description of a selection says that its value is the name of an object.
+#: The words with which the description of a selection says that its value is the name of an object.
 BY_NAME = ", given by its name"
 OR_NAME = "For a scene or a recipe, the name of its object."
-#: What the selections of each type select.
+#: The kind of elements that the selections of each type select.
 ELEMENTS = {"VertexSelection": "vertices", "EdgeSelection": "edges", "FaceSelection": "faces"}
 
 
 def meaning(alternatives: list[Any]) -> str:
-    """The meaning of a variant. If several types have a variant of this name, and their meanings differ, a list says
-    what it means where."""
+    """Returns the description of a variant. If several types have a variant of this name, and the descriptions differ,
+    returns a list with the description for each type."""
     texts: dict[str, list[Any]] = {}
     for option in alternatives:
         text = outside_recipes(option.get("description", "")).replace(BY_NAME, "")
@@ -442,7 +448,7 @@ def meaning(alternatives: list[Any]) -> str:
     if not all(places.values()) and not any(owner(option) in ELEMENTS for option in alternatives):
         return " ".join(texts)
     has_forms = len({form(option) for option in alternatives if "properties" in option}) > 1
-    # What is true everywhere is said once, after the list.
+    # Sentences that all descriptions contain are written only once, after the list.
     parts = {text: sentences(text) for text in texts}
     common = [part for part in next(iter(parts.values())) if all(part in other for other in parts.values())]
     rows = []
@@ -456,7 +462,7 @@ def meaning(alternatives: list[Any]) -> str:
 
 
 def form(option: Any) -> str:
-    """How the value of a variant is given: by itself, or as parameters with names."""
+    """Says how the value of a variant is written: as one value, or as parameters with names."""
     name = name_of(option)
     fields = resolve(option["properties"][name]).get("properties") if "properties" in option else None
     given = ", ".join(f"{python_name(field)}=.." for field in fields) if fields else "value"
@@ -464,18 +470,18 @@ def form(option: Any) -> str:
 
 
 def of_elements(text: str) -> str:
-    """A text about vertices, edges or faces, as a text about elements."""
+    """Replaces the words "vertices", "edges" and "faces" by "elements"."""
     return re.sub(r"\b(vertices|edges|faces)\b", "elements", text)
 
 
 def places_of(alternatives: list[Any]) -> str:
-    """The parameters that take these variants, except selections, which many parameters take."""
+    """Lists the parameters that take these variants. Selections are left out, because many parameters take them."""
     places = [f"`{place}`" for option in alternatives for place in uses().get(owner(option), [])]
     return " and ".join([", ".join(places[:-1]), places[-1]]) if len(places) > 1 else "".join(places)
 
 
 def combined(schemas: list[Any]) -> Any:
-    """The schema of a parameter that several variants of the same name have."""
+    """Merges the schemas of a parameter that several variants of the same name have."""
     text = described(schemas[0])
     if names_object(schemas[0]):
         text = f"{text.replace(OBJECT, 'The mesh ')} {OR_NAME}"
@@ -485,13 +491,13 @@ def combined(schemas: list[Any]) -> Any:
 
 
 def outside_recipes(text: str) -> str:
-    """A text that says what a relative path is relative to, in a recipe and in Python."""
+    """Rewrites the sentence about relative paths, so that it describes recipes and Python."""
     python = "A relative path is relative to the working directory; in a recipe, to "
     return RELATIVE.sub(lambda found: f"{python}{found[1]}.", " ".join(text.split()))
 
 
 def union(kinds: Iterable[str]) -> str:
-    """The union of Python types, with one `Literal`."""
+    """Returns the union of Python types. All `Literal` types are merged to one."""
     parts = list(dict.fromkeys(part for kind in kinds for part in split_union(kind)))
     words = [part.removeprefix("Literal[").removesuffix("]") for part in parts if part.startswith("Literal[")]
     named = list(dict.fromkeys(word for part in words for word in part.split(", ")))
@@ -519,7 +525,7 @@ def variants_file(doc: str, found: dict[str, list[Any]]) -> str:
 
 
 def files() -> dict[str, str]:
-    """The contents of the generated files."""
+    """Returns the contents of the generated files by file name."""
     return {
         "_operations.py": operations_file(),
         "sel.py": variants_file("Selections of the elements of a mesh, which are its vertices, edges and faces, and regions of space.", selections()),

@@ -1,4 +1,4 @@
-"""The examples of the documentation in one file, for the type checker and as a test."""
+"""The examples of the documentation in one file. The type checker checks the file, and a test runs it."""
 
 from pathlib import Path
 

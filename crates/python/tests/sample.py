@@ -1,4 +1,4 @@
-"""The first steps: a script that runs as it is, and passes the type checker."""
+"""A script with first steps. A test runs it unchanged, and it must pass the type checker."""
 
 import meshwright as mw
 

@@ -141,7 +141,7 @@ SETS = [{"levels": 1}, {"levels": np.int64(2), "center": np.array([0, 0.5, 1])},
 
 
 def program(*arguments: str) -> list[dict[str, Any]]:
-    """The rows of the report of the program, without times."""
+    """Runs `meshwright batch`, and returns the rows of its report without times and outputs."""
     command = [sys.executable, "-m", "meshwright", "batch", *arguments, "--report", "program.json"]
     assert subprocess.run(command, capture_output=True).returncode in (0, 1)
     expected = json.loads(Path("program.json").read_text())["rows"]
@@ -173,7 +173,7 @@ def ball_file(folder: Path) -> Path:
 
 
 def many(folder: Path) -> None:
-    """2,000 small files, of which four are broken."""
+    """Writes 2,000 small files. Four of them are invalid."""
     (folder / "many").mkdir()
     for i in range(2000):
         faces = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n" if i % 500 else "f 1 2 9\n"

@@ -35,7 +35,7 @@ FACES = np.array([[0, 1, 2], [0, 0, 1], [1, 0, 3], [0, 1, 4]])
 
 @pytest.mark.parametrize("package", ["trimesh", "meshio", "pyvista", "open3d"])
 def test_repairs_keep_the_attributes_of_the_other_elements(package: str) -> None:
-    """One edge has three faces, so that its vertices are split, and one face is dropped."""
+    """The data have an edge with three faces, whose vertices are split, and an invalid face, which is dropped."""
     pytest.importorskip(package, exc_type=ImportError)
     heat, part = np.arange(5.0), np.array([10, 11, 12, 13])
     other: Any
@@ -70,7 +70,7 @@ def test_trimesh_texture_coordinates(model: mw.Mesh) -> None:
     other = smooth.to_trimesh()
     assert (other.visual.uv == model.vertices[:, :2]).all() and len(other.vertices) == model.n_vertices
     assert (mw.Mesh.from_trimesh(other).attributes["corner", "uv"] == smooth.attributes["corner", "uv"]).all()
-    # With a seam along the corners of the first 9 faces.
+    # The first 9 faces now have other texture coordinates, so there is a seam around them.
     uv = np.array(smooth.attributes["corner", "uv"])
     uv[:27] += 10
     with pytest.warns(UserWarning, match="copies of vertices were made"):

@@ -54,14 +54,14 @@ def test_values_of_recipes_are_documented_as_in_python() -> None:
 
 
 def test_the_examples_of_the_methods_are_those_of_the_operations() -> None:
-    """The example in the documentation of each method makes the step that the documentation of the operation shows."""
+    """The example in the documentation of each method gives the step that the documentation of its operation shows."""
     generate = generator()
     for name, entry in operations().items():
         call = generate.in_python(entry["example"])
         assert f"``scene.{call}``" in " ".join(inspect.getdoc(getattr(mw.Scene, generate.snake(name))).split())
         recipe = eval(f"recipe.{call}", {"recipe": mw.recipe(), "sel": mw.sel, "choice": mw.choice})
         step = recipe.to_ron().split("steps: [\n", 1)[1].rsplit(",\n    ],", 1)[0].strip()
-        # The order of the parameters is that of the method.
+        # The tokens are sorted, because the step has its parameters in the order of the method, not of the example.
         assert sorted(TOKEN.findall(generate.in_python(step))) == sorted(TOKEN.findall(call)), step
 
 

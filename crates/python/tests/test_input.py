@@ -1,4 +1,4 @@
-"""Arrays that are not a mesh give exceptions, and never end the process."""
+"""Invalid arrays raise exceptions, and never end the process."""
 
 import warnings
 from typing import Any

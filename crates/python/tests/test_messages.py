@@ -1,4 +1,4 @@
-"""Messages say what to write in Python."""
+"""Error messages use the names and values of Python."""
 
 from typing import Any
 
@@ -40,7 +40,7 @@ def test_the_name_of_a_value_with_parameters(ball: mw.Mesh) -> None:
     ):
         with pytest.raises(TypeError, match=written):
             ball.smooth(by=by)  # type: ignore[arg-type]
-    # Several modules have values of these names.
+    # Several modules have values of these names. The message names the module whose value fits the parameter.
     for by, written in (("Random", r"choice\.Random\(\)"), ("Attribute", r"choice\.Attribute\(name=\.\.\)")):
         with pytest.raises(TypeError, match=written):
             ball.displace(by=by, distance=1)  # type: ignore[arg-type]

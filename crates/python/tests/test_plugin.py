@@ -24,7 +24,7 @@ SILENT = '(recipe: 1, steps: [Cube(name: "box")])'
 
 
 def run(folder: Path, *arguments: str) -> tuple[int, set[str]]:
-    """The exit code of pytest, and its line for each test."""
+    """Runs pytest on recipes. Returns its exit code, and its line for each test."""
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-rA", "--no-header", "--recipes", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, cwd=folder)
     return done.returncode, set(re.findall(r"^((?:PASSED|FAILED|ERROR) \S+)", done.stdout, re.MULTILINE))
@@ -48,7 +48,8 @@ def test_the_recipes_are_those_that_the_program_tests(tmp_path: Path) -> None:
     assert run(tmp_path, ".") == (0, {"PASSED a.ron::a"})
     assert run(tmp_path) == (0, {"PASSED a.ron::a"})
     assert run(tmp_path, "a.ron::a") == (0, {"PASSED a.ron::a"})
-    # A recipe that is named is tested, although another recipe calls it. It fails, because it has no mesh of its own.
+    # If the path of a recipe is given, the recipe is tested even though another recipe calls it. This test fails,
+    # because the recipe does not create a mesh.
     assert run(tmp_path, "lib/called.ron") == (1, {"FAILED lib/called.ron::called"})
     (tmp_path / "broken.ron").write_text("(recipe: 1, steps: [Cub()])")
     assert run(tmp_path, ".") == (1, {"PASSED a.ron::a", "FAILED broken.ron::broken"})

@@ -195,7 +195,7 @@ def test_the_example(tmp_path: Path) -> None:
 
 
 def test_the_sample(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The script of the first steps runs as it is."""
+    """The script `sample.py` with the first steps runs unchanged."""
     monkeypatch.chdir(tmp_path)
     ball = mw.Scene().icosahedron(name="ball").mesh()
     ball.save("bunny.obj").save("scan.ply")
@@ -210,7 +210,7 @@ def test_the_sample(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_variant_with_one_value_and_with_fields(tmp_path: Path) -> None:
-    """The variant `Distance` of `ExtrudeFaces` has one value, and that of `Measure` has fields."""
+    """The variant `Distance` has one value in `ExtrudeFaces`, but fields with names in `Measure`."""
     box = mw.Scene().cube(name="box", size=2).mesh()
     grown = box.extrude_faces(faces=sel.Facing(direction=(0, 0, 1), within=1), by=choice.Distance(0.5))
     assert grown.vertices[:, 2].max() == 1.5

@@ -1,4 +1,4 @@
-"""`python -m meshwright` is the program `meshwright`."""
+"""`python -m meshwright` runs the program `meshwright`."""
 
 import sys
 

@@ -37,13 +37,13 @@ class HalfEdges(NamedTuple):
     ``h >> 1`` the edge. 4294967295 stands for a missing face or half-edge.
     """
 
-    #: For each half-edge, the next one around its face, or around its hole.
+    #: For each half-edge, the next half-edge around its face. On the boundary, the next half-edge around the hole.
     next: NDArray[np.uint32]
-    #: For each half-edge, the vertex that it leaves.
+    #: For each half-edge, the vertex at which it starts.
     origin: NDArray[np.uint32]
-    #: For each half-edge, its face; 4294967295 on the boundary.
+    #: For each half-edge, its face, or 4294967295 if the half-edge is on the boundary.
     face: NDArray[np.uint32]
-    #: For each vertex, a half-edge that leaves it: a boundary half-edge if there is one.
+    #: For each vertex, a half-edge that starts at the vertex. If a boundary half-edge starts there, this half-edge.
     of_vertex: NDArray[np.uint32]
     #: For each face, one of its half-edges.
     of_face: NDArray[np.uint32]
@@ -52,11 +52,11 @@ class HalfEdges(NamedTuple):
 class OneSided(NamedTuple):
     """The distances from the points of one surface to another surface, in scene units."""
 
-    #: The largest distance found. If it is not exact, it is too low.
+    #: The largest distance that was found. It is exact or too low.
     largest: float
     #: An upper bound of the distances of all points.
     at_most: float
-    #: The mean over the area of the surface, computed from samples.
+    #: The mean distance over the area of the surface, computed from samples.
     mean: float
 
 
@@ -105,7 +105,7 @@ class Attributes(Mapping[str, NDArray[Any]]):
         raise KeyError(f'no attribute is named "{name}"; attributes: {known}')
 
     def rule(self, name: str, domain: Domain | None = None) -> Rule:
-        """What edits do with the values: interpolate, normal, copy or drop."""
+        """The rule by which edits change the values of an attribute: interpolate, normal, copy or drop."""
         rule: Any = self._kinds[domain or self.domain(name), name][1]
         return rule  # type: ignore[no-any-return]
 
@@ -250,7 +250,8 @@ class Mesh(MeshConversions, MeshOperations):
 
     @property
     def faces(self) -> list[NDArray[np.uint32]]:
-        """The vertices of each face. Slow for large meshes: see :attr:`triangles`, :attr:`corners`."""
+        """The vertices of each face. This property is slow for large meshes. The arrays :attr:`triangles` and
+        :attr:`corners` are faster."""
         corners, starts = self._polygons
         return np.split(corners, starts[1:-1].astype(np.int64)) if len(starts) > 1 else []
 
@@ -269,11 +270,13 @@ class Mesh(MeshConversions, MeshOperations):
             return frozen(np.zeros((0, 3)))
         first = starts[:-1].astype(np.int64)
         points = self.vertices[corners]
-        # Points far from the origin lose digits in cross products, so each face is moved to its first corner.
+        # The points of a face are taken relative to its first corner, because cross products lose digits far from the
+        # origin.
         points -= np.repeat(points[first], np.diff(starts).astype(np.int64), axis=0)
         following = np.arange(1, len(corners) + 1)
         following[starts[1:].astype(np.int64) - 1] = first
-        # The sum of the cross products of consecutive corners is twice the area vector, also if the face is not flat.
+        # The sum of the cross products of consecutive corners is twice the area vector of a face, even if the face is
+        # not flat.
         areas = np.add.reduceat(np.cross(points, points[following]), first, axis=0)
         lengths = np.linalg.norm(areas, axis=1, keepdims=True)
         return frozen(np.divide(areas, lengths, out=np.zeros_like(areas), where=lengths > 0))
@@ -299,7 +302,7 @@ class Mesh(MeshConversions, MeshOperations):
         return self.attributes[domain, name] if domain else self.attributes[name]
 
     def tag(self, domain: Domain, name: str) -> NDArray[np.bool_]:
-        """A tag, which is a named selection. For each element, whether the tag selects it."""
+        """The values of a tag, which is a named selection: for each element, whether the tag selects it."""
         values = self.attributes[domain, name]
         if values.dtype != np.bool_:
             raise TypeError(f'"{name}" is an attribute of type {values.dtype}, expected a tag')
@@ -492,7 +495,7 @@ class Mesh(MeshConversions, MeshOperations):
         return Distance(forth, back)
 
     def defects(self) -> list[str]:
-        """The broken invariants in words. Empty, unless this package has a bug."""
+        """Describes each violated invariant of the mesh. The list is empty, unless this package has a bug."""
         return self._core.defects()
 
     @cached_property
@@ -606,7 +609,7 @@ class Mesh(MeshConversions, MeshOperations):
         return type(self)(result, names[0], done.notes, done._history)
 
     def _named(self, value: Any, others: dict[int, tuple[str, Mesh]]) -> Any:
-        """Replaces each mesh in the values of parameters with the name of an object."""
+        """Replaces each mesh in a value by a name for its object. Adds the names and the meshes to `others`."""
         if isinstance(value, Mesh):
             name = value.name if value.name != self._name else f"{value.name} (other)"
             taken = {n for key, (n, _) in others.items() if key != id(value)}
@@ -623,7 +626,7 @@ class Mesh(MeshConversions, MeshOperations):
         return value
 
     def _with(self, others: dict[int, tuple[str, Mesh]]) -> _core.Scene:
-        """The scene of this mesh and of the other meshes, with their names."""
+        """Returns a scene with this mesh and the other meshes, which are renamed to the names in `others`."""
         scene = self._scene
         for name, other in others.values():
             scene = scene.joined(other._scene, {other.name: name})
@@ -659,7 +662,7 @@ def _count(n: int, one: str, many: str) -> str:
 def polygons(
     faces: ArrayLike | Sequence[ArrayLike], face_starts: ArrayLike | None
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-    """The index of the first corner of each face, and the corners of all faces."""
+    """Converts faces to two arrays: the index of the first corner of each face, and the corners of all faces."""
     if face_starts is not None:
         starts, corners = indices(face_starts, "face_starts"), indices(faces, "faces")  # type: ignore[arg-type]
         if starts.ndim != 1 or corners.ndim != 1:

@@ -21,7 +21,7 @@ from .errors import Problem
 
 @dataclass(frozen=True)
 class Step:
-    """A step that was done."""
+    """A step that a run has executed."""
 
     #: The label of the step: its id, or the name of the operation.
     name: str
@@ -90,7 +90,8 @@ class Parameter:
 
 
 class _Load:
-    """`Recipe.load(path)` loads a recipe from its file. On a recipe, `load` adds a step that loads a model."""
+    """The attribute `load`. On the class, `Recipe.load(path)` loads a recipe from its file. On a recipe, `load` returns
+    the recipe with an additional step, which loads a model."""
 
     @overload
     def __get__(self, recipe: None, kind: type[Recipe]) -> Callable[[str | os.PathLike[str]], Recipe]: ...
@@ -126,8 +127,8 @@ class Recipe(SceneOperations):
         """Creates a recipe from its text, or an empty recipe.
 
         :param text: The text.
-        :param path: The path of its file, for messages; relative paths in the text are relative to its folder. The file
-            is not read.
+        :param path: The path of the recipe file. Messages contain this path, and relative paths in the text are
+            relative to the folder of this file. The file is not read.
         """
         self._text = text
         self._path = os.fspath(path)
@@ -176,7 +177,8 @@ class Recipe(SceneOperations):
                 raise ValueError(f'the parameter "{arg.name}" is declared twice: {known} and {arg.declaration}')
 
     def step(self, operation: str, /, *, on: str | Sequence[str] | None = None, id: str | None = None, **parameters: Any) -> Self:
-        """Adds a step by the name of its operation in recipes."""
+        """Returns the recipe with an additional step. `operation` is the name of the operation in recipes, such as
+        ``LoopSubdivide``."""
         return self._apply(operation, parameters, on, id)
 
     def expect(
@@ -185,7 +187,8 @@ class Recipe(SceneOperations):
         after: str | None = None,
         on: str | Sequence[str] | None = None,
     ) -> Self:
-        """Adds expectations: words such as ``"Manifold"``, or values of :mod:`meshwright.expect`.
+        """Returns the recipe with additional expectations: words such as ``"Manifold"``, or values of
+        :mod:`meshwright.expect`.
 
         :param after: The id of the step after which the expectations must hold. If omitted, they must hold at the end.
         :param on: The names of the objects to which the expectations apply. If omitted, they apply to all objects.
@@ -202,13 +205,13 @@ class Recipe(SceneOperations):
         return made
 
     def about(self, text: str) -> Self:
-        """Sets the description of the recipe."""
+        """Returns the recipe with another description."""
         made = self._copy()
         made._about = text
         return made
 
     def to_ron(self) -> str:
-        """Returns the text of the recipe, which the program `meshwright` runs too."""
+        """Returns the text of the recipe. The program `meshwright` can run a file with this text."""
         if self._text is not None:
             return self._text
         lines = ["(", "    recipe: 1,"]

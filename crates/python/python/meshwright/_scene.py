@@ -77,8 +77,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         return self._core.kind(name)
 
     def with_object(self, mesh: Mesh, *, name: str | None = None) -> Self:
-        """Returns the scene with the object of a mesh added. The object is named `name`, or keeps its name if `name` is
-        omitted."""
+        """Returns the scene with an additional object, which is the object of the mesh. The object is named `name`, or
+        keeps its name if `name` is omitted."""
         if self._history.is_empty and name in (None, mesh.name):
             history = mesh._history
         else:
@@ -92,8 +92,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         return type(self)(self._core.only(list(names)), self._notes, self._history.only(self._core, names))
 
     def placed(self) -> Self:
-        """Returns the scene without nodes, with every object moved to the place where its nodes show it. An object that
-        several nodes show becomes several objects."""
+        """Returns the scene without nodes: the placements of the nodes are applied to the points of the objects. An
+        object that several nodes show becomes several objects."""
         history = self._history.lost("repeat `placed()`", 'Read the file with placements="Bake".')
         return type(self)(self._core.placed(), self._notes, history)
 
@@ -208,8 +208,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
     # ---- Files
 
     def to_bytes(self, extension: str, **options: Any) -> bytes:
-        """Returns the content of a file of this format, such as ``"glb"``. What the format cannot store is listed in a
-        :class:`meshwright.LossWarning`.
+        """Returns the content of a file of this format, such as ``"glb"``. If the format cannot store some of the data,
+        a :class:`meshwright.LossWarning` lists them.
 
         :param extension: The extension of the format.
         :param options: The other parameters of :meth:`save`.
@@ -246,12 +246,12 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         return f"Scene({', '.join(parts)})"
 
 
-#: The operations whose parameter `path` is a file that they write.
+#: The operations that write a file, whose path is their parameter `path`.
 WRITES = {"Save", "Picture", "CurveFigure", "HalfEdgeFigure", "UvPicture"}
 
 
 def whole_step(operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None) -> str:
-    """A step of a recipe, with its id and the names of its objects if they are given."""
+    """Writes a step of a recipe, with its `id` and the names `on` of its objects if they are given."""
     step = _ron.step(operation, fields)
     if on is None and id is None:
         return step
@@ -266,7 +266,7 @@ def whole_step(operation: str, fields: Mapping[str, Any], on: str | Sequence[str
 
 
 def lines_of(report: Mapping[str, Any]) -> Iterator[str]:
-    """The lines of the report of a step."""
+    """Converts the report of a step to lines of text."""
     for refused in report["refused"]:
         yield f"{refused['count']} refused: {refused['first']}"
     yield from map(line_of_loss, report["losses"])
@@ -276,13 +276,13 @@ def lines_of(report: Mapping[str, Any]) -> Iterator[str]:
 
 
 def line_of_loss(loss: Mapping[str, str]) -> str:
-    """A loss in words."""
+    """Describes a loss of data in one line of text."""
     object = f'"{loss["object"]}"' if loss["object"] else "the scene"
     return f"{object} lost {loss['what']}: {loss['reason']}" if loss["reason"] else loss["what"]
 
 
 def warn_of_losses(path: str, reports: Sequence[Mapping[str, Any]]) -> None:
-    """Issues one warning that lists what a file lacks. Rounded positions do not count as a loss."""
+    """Issues one warning that lists the data that a saved file lacks. Rounded positions are not listed."""
     losses = [loss for report in reports for loss in report["losses"] if loss["name"] != "position"]
     if losses:
         warn(f"{path}: {'; '.join(map(line_of_loss, losses))}. An .mws file stores everything; see help(meshwright.LossWarning)")
@@ -294,7 +294,8 @@ def is_address(path: str) -> bool:
 
 
 def extension_of(path: str) -> str:
-    """The extension of a file name, including a `.gz` that follows it."""
+    """Returns the extension of a file name. If the name ends in `.gz`, the extension before it is included:
+    `obj.gz`."""
     name = path.rsplit("/", 1)[-1]
     stem, _, extension = name.rpartition(".")
     if extension == "gz":
@@ -303,7 +304,7 @@ def extension_of(path: str) -> str:
 
 
 def fsspec() -> Any:
-    """The module fsspec."""
+    """Imports the package fsspec. If it is missing, the error says how to install it."""
     try:
         import fsspec
     except ImportError as error:
@@ -313,7 +314,7 @@ def fsspec() -> Any:
 
 def write_bytes(address: str, data: bytes) -> None:
     """Writes a file at an address."""
-    # Object stores such as S3 have no folders, so folders are created only at local addresses.
+    # Missing folders are created only for addresses of local files, because object stores such as S3 have no folders.
     options = {"auto_mkdir": True} if address.startswith("file:") else {}
     with fsspec().open(address, "wb", **options) as file:
         file.write(data)

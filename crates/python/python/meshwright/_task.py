@@ -1,4 +1,4 @@
-"""A process of a batch: the program `meshwright`, which ends when the process that started it ends."""
+"""Runs the program `meshwright` as a process of a batch. The process ends when the process that started it ends."""
 
 from __future__ import annotations
 

@@ -29,12 +29,12 @@ PAGE = """<!DOCTYPE html><html><head><meta charset="utf-8"><style>html, body, #v
 
 @cache
 def script() -> str:
-    """The viewer with three.js in one script."""
+    """Returns a script that contains the viewer and three.js."""
     return (files("meshwright") / "_static" / "viewer.js").read_text(encoding="utf-8")
 
 
 def encoded(array: NDArray[Any], dtype: str) -> str:
-    """The bytes of an array as text."""
+    """Encodes the bytes of an array as base64."""
     return base64.b64encode(np.ascontiguousarray(array, dtype)).decode("ascii")
 
 
@@ -44,8 +44,8 @@ Values = tuple[Literal["vertex", "face"], NDArray[Any]]
 
 
 def quantity(mesh: Mesh, of: str | Choice) -> Values:
-    """The values of a quantity, and whether they belong to the vertices or the faces. If an attribute has vectors, their
-    lengths are used."""
+    """Returns the values of a quantity or an attribute, and whether the values belong to the vertices or to the faces.
+    Vectors are replaced by their lengths."""
     if isinstance(of, Choice) and of.name == "Attribute":
         name, component = of.fields["name"], of.fields.get("component")
         domain = mesh.attributes.domain(name)
@@ -65,7 +65,7 @@ def quantity(mesh: Mesh, of: str | Choice) -> Values:
 
 
 def colors_of(numbers: NDArray[Any], span: tuple[float, float] | None = None) -> tuple[NDArray[np.uint8], str]:
-    """A color for each number, and the range of the colors in words."""
+    """Returns a color for each number, and a text with the lowest and the highest value of the color scale."""
     if not len(numbers):
         return np.zeros((0, 3), np.uint8), "no values"
     low, high = span or (float(numbers.min()), float(numbers.max()))
@@ -76,8 +76,8 @@ def colors_of(numbers: NDArray[Any], span: tuple[float, float] | None = None) ->
 
 
 class View:
-    """An interactive view of a mesh. A notebook shows it as the result of a cell; :meth:`save` writes a page. The page
-    contains the mesh and three.js, and needs no network."""
+    """An interactive view of a mesh. A notebook shows the view if it is the result of a cell, and :meth:`save` writes
+    it as an HTML page. The page contains the mesh and three.js, and needs no network."""
 
     def __init__(self, mesh: Mesh, shown: str | Choice | Mapping[str, Any] | None, wireframe: bool | None, height: int) -> None:
         self._height = height
@@ -93,7 +93,7 @@ class View:
                 pieces = mesh.with_attribute(SHOWN, values, "face")
         if (np.diff(mesh.face_starts) != 3).any():
             pieces = pieces.triangulate()
-        # The mesh is moved to the origin, because 32-bit floats are precise only there.
+        # The center of the mesh is moved to the origin, because 32-bit floats are most precise there.
         center = mesh.vertices.mean(axis=0) if mesh.n_vertices else np.zeros(3)
         points, triangles, colors = mesh.vertices - center, pieces.triangles, None
         if values is not None:
@@ -102,8 +102,8 @@ class View:
             of = given["of"]
             caption += f", {of.fields['name'] if isinstance(of, Choice) else of}: {span}"
             if domain == "face":
-                # Each triangle gets three points of its own. These points follow the vertices, to which the edges
-                # refer.
+                # Neighboring triangles can have different colors, so each triangle gets three separate points. These
+                # points follow the vertices of the mesh, which the edges still use.
                 points = np.concatenate([points, points[triangles.reshape(-1)]])
                 colors = np.concatenate([np.zeros((mesh.n_vertices, 3), np.uint8), np.repeat(colors, 3, axis=0)])
                 triangles = (mesh.n_vertices + np.arange(3 * len(triangles), dtype=np.uint32)).reshape(-1, 3)
@@ -118,11 +118,11 @@ class View:
             self._data["colors"] = encoded(colors, "u1")
 
     def to_html(self) -> str:
-        """Returns the page."""
+        """Returns the view as an HTML page."""
         return PAGE % (script(), json.dumps(self._data).replace("<", "\\u003c"))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the page to a file."""
+        """Writes the view to a file, as an HTML page."""
         with open(path, "w", encoding="utf-8") as file:
             file.write(self.to_html())
 

@@ -27,9 +27,9 @@ class Problem:
     severity: str
     #: What is wrong.
     message: str
-    #: How to correct it, if that is known.
+    #: How to correct the problem, if this is known.
     help: str | None
-    #: The file of the recipe; ``"step"`` for a step that a method runs.
+    #: The file of the recipe, or ``"step"`` if a method runs a single step.
     file: str | None
     #: The line, counted from 1.
     line: int | None
@@ -42,8 +42,8 @@ class Error(Exception):
 
 
 class RecipeError(Error):
-    """A recipe or an operation cannot run, or has failed. For a recipe, the text shows the lines that the problems are
-    about."""
+    """A recipe or an operation cannot run, or has failed. For a recipe, the text of the error shows the lines of the
+    recipe that have problems."""
 
     #: All errors and warnings, in the order of the text.
     problems: tuple[Problem, ...]
@@ -84,7 +84,7 @@ class LossWarning(UserWarning):
 
 
 def warn(message: str) -> None:
-    """Issues a `LossWarning` at the line of the user that called the package."""
+    """Issues a `LossWarning` that shows the line of the user's code that called the package."""
     frame, level = sys._getframe().f_back, 2
     while frame and str(frame.f_globals.get("__name__", "")).startswith("meshwright."):
         frame, level = frame.f_back, level + 1
@@ -92,8 +92,8 @@ def warn(message: str) -> None:
 
 
 def of_method(error: Error, operation: str) -> Error:
-    """The error of a method that runs `operation`. Values are written as in Python, and no lines of a recipe are
-    shown."""
+    """Converts an error of a step to an error of the method that runs `operation`. The text uses Python names, and
+    shows no lines of a recipe."""
     from ._names import code_in_python, snake, without_steps
 
     def text(recipe: str) -> str:

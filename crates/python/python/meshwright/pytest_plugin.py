@@ -28,7 +28,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 def tested(config: pytest.Config) -> set[Path]:
-    """The recipes that the program would test if it received the files and folders in the arguments of pytest."""
+    """Returns the recipes that `meshwright test` would run for the files and folders in the arguments of pytest."""
     found: set[Path] | None = config.stash.get(TESTED, None)
     if found is None:
         from meshwright._core import tested_recipes
@@ -43,12 +43,12 @@ class RecipeFile(pytest.File):
     """The file of a recipe."""
 
     def collect(self) -> Iterator[pytest.Item]:
-        """The test of the recipe. A recipe that cannot be read is a test that fails."""
+        """Yields the test of the recipe. If the recipe cannot be read, this test fails."""
         yield RecipeTest.from_parent(self, name=self.path.stem)
 
 
 class RecipeTest(pytest.Item):
-    """The test of a recipe: every step succeeds, and every expectation holds."""
+    """The test of a recipe. It passes if every step succeeds and every expectation holds."""
 
     def runtest(self) -> None:
         """Runs the recipe."""
@@ -57,7 +57,7 @@ class RecipeTest(pytest.Item):
         Recipe.load(self.path).run(keep_outputs=False)
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """The diagnostics of the recipe."""
+        """Returns the diagnostics of the recipe as the text of a failure."""
         from meshwright import Error
 
         if isinstance(excinfo.value, Error):
@@ -65,5 +65,5 @@ class RecipeTest(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        """The recipe."""
+        """Returns the path and the title under which pytest reports the recipe."""
         return self.path, 0, f"recipe {self.name}"

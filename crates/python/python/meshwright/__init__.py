@@ -104,7 +104,8 @@ If you know trimesh:
     mesh.show()                               m.view()
 
 Here `p = mw.Mesh.from_arrays(points, [])` is a mesh of points. Signed distances are negative inside the mesh, whereas
-trimesh returns positive distances inside. `m.to_trimesh()` and `mw.Mesh.from_trimesh(mesh)` convert meshes. '''
+trimesh returns positive distances inside. `m.to_trimesh()` and `mw.Mesh.from_trimesh(mesh)` convert meshes.
+'''
 
 # With `__all__`, `help(meshwright)` would show every method of every class after this text. The imports with `as` tell
 # type checkers that the names are public.

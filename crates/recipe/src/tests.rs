@@ -16,10 +16,11 @@ use scene::{Graph, Object, Scene};
 use self::operations::{registry, steps};
 use crate::{Diagnostic, Forecast, Outcome, Reader, Reading, Settings, Silent, Violation};
 
-/// A reader that reads objects with a function and cannot compare pictures.
+/// A reader that calls a function to read the objects of a file. It cannot compare pictures.
 pub(crate) struct Objects<F>(F);
 
-/// Creates the reader from a closure. The trait bound lets the compiler infer the types of the closure's parameters.
+/// Creates an [`Objects`] from a closure. The trait bound lets the compiler infer the types of the closure's
+/// parameters.
 pub(crate) fn objects<F>(read: F) -> Objects<F>
 where
     F: Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync,
@@ -95,7 +96,7 @@ fn run(reading: &Reading) -> Outcome {
     crate::run(&reading.recipe, settings, &Silent)
 }
 
-/// Returns the spanned text, the message and the help of each diagnostic.
+/// Returns the text in the span, the message and the help of each diagnostic.
 fn shown<'t>(text: &'t str, diagnostics: &'t [Diagnostic]) -> Vec<(&'t str, &'t str, &'t str)> {
     let one = |d: &'t Diagnostic| {
         let place = d.span.map_or("no span", |span| span.of(text));

@@ -16,7 +16,7 @@ const CUBE: &str = "// A cube.
 )
 ";
 
-/// Runs a saved recipe with the engine alone.
+/// Runs a saved recipe with the engine, without an editor, and returns the digest.
 fn replayed(store: Arc<Memory>, path: &str) -> Digest {
     let registry = ops_all::registry();
     let engine = Engine::new(&registry).with_store(store);
@@ -53,7 +53,7 @@ fn a_split_after_a_flip_splits_the_edge_where_it_is_now() {
     let before = editor.proposal().unwrap().text.clone();
     let flip = editor.command_of(Action::Flip).unwrap();
     editor.apply(&flip).unwrap();
-    // A window shows the selection in every frame, also before the run has ended.
+    // A window reads the selection in every frame, even while the recipe still runs.
     editor.proposal();
     let split = editor.command_of(Action::Split).unwrap();
     if !editor.view().is_current {
@@ -78,7 +78,8 @@ fn picked_elements_that_a_new_scene_does_not_have_are_dropped() {
     settled(&mut editor);
     assert_eq!(counts(&editor), [4, 6, 4]);
     assert_eq!(editor.picked(), None);
-    // A preview without the picked elements only hides them: they are still picked.
+    // The mesh of the preview does not have the picked elements. They are not shown as picked, but they are picked
+    // again when the preview ends.
     let (mut editor, _) = opened(CUBE);
     let picked = Picked::one("cube", Element::Edge(last));
     editor.set_picked(Some(picked.clone()));
@@ -107,7 +108,7 @@ fn picked_elements_go_only_to_the_first_selection() {
         steps(&smooth),
         "Smooth(vertices: Vertices([2]), by: Taubin())"
     );
-    // If the command sets `vertices`, the picked vertex does not become the value of `pin` instead.
+    // If the command sets `vertices`, the picked vertex is not used. It must not become the value of the field `pin`.
     assert_eq!(
         steps(&smooth.with("vertices", "Boundary")),
         "Smooth(by: Taubin(), vertices: Boundary)"
@@ -146,7 +147,7 @@ fn dragging_the_same_elements_twice_gives_one_step() {
     assert_eq!(editor.outline().steps.len(), 2);
     let moved = editor.picked_center().unwrap() - start;
     assert!(moved.distance(mesh::DVec3::new(0.2, 0.7, 0.0)) < 1e-12);
-    // A drag that ends where it began changes nothing.
+    // A drag that ends at its start changes nothing.
     let text = editor.text().to_owned();
     editor
         .move_picked(Movement::Offset(mesh::DVec3::X), true)
@@ -192,9 +193,9 @@ fn rotating_and_scaling_the_same_elements_change_one_step() {
     );
     // The four steps are the cube, two rotations around different axes, and one scaling.
     assert_eq!(editor.outline().steps.len(), 4);
-    // The center of the picked elements stays where it is.
+    // Rotations and scalings do not move the center of the picked elements.
     assert!(editor.picked_center().unwrap().distance(start) < 1e-12);
-    // A drag that ends where it began writes nothing.
+    // A drag that ends at its start does not change the recipe.
     let text = editor.text().to_owned();
     drag(&mut editor, Movement::Rotate(2, 0.0));
     assert_eq!(editor.text(), text);
@@ -222,7 +223,7 @@ fn patches_become_a_mesh_by_one_change() {
     );
     assert!(editor.undo());
     assert_eq!(editor.text(), text);
-    // If the scene has other objects, only the former patches are welded.
+    // If the scene has other objects, the step `Weld` is limited to the object that had the patches.
     editor
         .apply(&Command::new("Cube").with("name", "\"a\""))
         .unwrap();
@@ -257,7 +258,7 @@ fn the_steps_after_a_preview_keep_their_results() {
 fn a_session_gives_a_recipe_that_replays_to_the_same_digest() {
     let (mut editor, store) = opened(CUBE);
     assert_eq!(counts(&editor), [8, 18, 12]);
-    // The diagonal of a face of the cube.
+    // The edge between two coplanar triangles is a diagonal of a face of the cube.
     let mesh = editor.view().scene.objects()[0].as_mesh().unwrap().clone();
     let diagonal = mesh
         .edges()

@@ -1,4 +1,4 @@
-//! Files, recovery, expectations, cancellation and panics.
+//! Tests of files, recovery, expectations, cancellation and panics.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ fn write(store: &Memory, path: &str, text: &str) {
     store.write(Path::new(path), text.as_bytes()).unwrap();
 }
 
-/// Polls until something happens to the file.
+/// Polls the editor until it reports a change of the file.
 fn file_change(editor: &mut Editor) -> FileChange {
     let end = std::time::Instant::now() + Duration::from_secs(60);
     while std::time::Instant::now() < end {
@@ -125,7 +125,7 @@ fn a_recipe_that_is_saved_in_another_folder_loads_the_same_files() {
     assert!(!editor.document().is_dirty());
     settled(&mut editor);
     assert_eq!(editor.run().digest, digest);
-    // If the new file is in the same folder, the text does not change.
+    // If the recipe is saved in the same folder under another name, its text does not change.
     let text = editor.text().to_owned();
     editor.save_as(Path::new("recipes/c.ron")).unwrap();
     assert_eq!(editor.text(), text);
@@ -144,7 +144,7 @@ fn an_error_in_the_text_keeps_the_last_scene() {
             "{wrong}"
         );
     }
-    // Before the first step, the scene is empty.
+    // If the cursor is before the first step, the editor shows the empty scene.
     editor.set_text(&LINE.replace("Poke", "Pook"));
     editor.set_cursor(0);
     settle(&mut editor);
@@ -171,7 +171,7 @@ fn unsaved_text_is_offered_after_a_crash() {
     assert_eq!(recoverable(&*store, Path::new("state")), []);
     editor.apply(&Command::new("Reverse")).unwrap();
     let text = editor.text().to_owned();
-    // The program ends without closing the editor.
+    // `forget` ends the editor without closing it, as a crash does.
     std::mem::forget(editor);
     let found = recoverable(&*store, Path::new("state"));
     assert_eq!(
@@ -222,7 +222,8 @@ fn expectations_hold_or_fail_with_the_actual_value() {
         (verdicts(&editor), editor.run().ran),
         (vec![Some(true); 3], 0)
     );
-    // A changed expectation after a step runs the step again.
+    // An expectation with `after` is checked only when its step runs. If this expectation changes, the run therefore
+    // starts at this step.
     let at = text.find("eq: 6").unwrap();
     editor.replace_span(at, at + 5, "min: 6").unwrap();
     settled(&mut editor);
@@ -264,7 +265,7 @@ fn errors_in_the_text_have_spans_and_the_steps_before_stay() {
     settle(&mut editor);
     let run = editor.run();
     assert!(run.has_failed() && run.diagnostics.iter().all(|d| d.span.is_some()));
-    // The scene with the cube is still known from the previous run.
+    // The editor shows the scene with the cube, which it has stored in the previous run.
     assert_eq!(editor.view().scene.objects().len(), 1);
     assert!(!editor.view().is_current);
     editor.set_text("");
@@ -276,7 +277,7 @@ fn errors_in_the_text_have_spans_and_the_steps_before_stay() {
     assert!(editor.view().is_current);
 }
 
-/// Panics, or waits until the run is canceled.
+/// An operation that panics, or that waits until the run is canceled.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Misbehave {
@@ -346,7 +347,7 @@ fn a_run_can_be_canceled_and_a_newer_text_wins() {
     assert_eq!(editor.view().scene.objects().len(), 1);
     assert!(editor.undo());
     settled(&mut editor);
-    // A new text cancels a run that waits in its step.
+    // A change of the text cancels a run whose step is still waiting.
     editor.apply(&wait).unwrap();
     editor.wait(Duration::from_millis(50));
     let end = editor

@@ -42,7 +42,7 @@ fn every_example_is_written_by_the_panel_of_its_operation() {
         assert_eq!(plain(&panel.step_text()), plain(entry.example));
         let again = Panel::of_step(&registry, &parsed.value, entry.example).unwrap();
         assert_eq!(again.step_text(), panel.step_text());
-        // The value of a widget is the same after it is written and read again.
+        // If the value of a widget is written as text and read again, it is the same.
         for field in &panel.fields {
             assert!(
                 !field.doc.is_empty() && !field.type_name.is_empty(),
@@ -171,7 +171,8 @@ fn a_tuple_of_whole_numbers_is_read_and_written() {
     assert_eq!(kind.first(), FieldValue::Integers(vec![9; 3]));
 }
 
-/// Returns `whole` with another value of one part. `path` has the names of the parts.
+/// Returns the value `whole` after one of its parts was replaced by `new`. `path` contains the names that lead to this
+/// part, from the outside to the inside.
 fn with_part(kind: &FieldKind, whole: &str, path: &[&str], new: Option<&str>) -> String {
     let (name, rest) = path.split_first().unwrap();
     let (_, parts) = kind.parts(whole);

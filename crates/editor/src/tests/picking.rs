@@ -6,7 +6,7 @@ use scene::{Object, Scene};
 use crate::select::propose_one;
 use crate::{Area, Indexes, PickMode, Picked, Projection, keep_visible, pick, pick_area, propose};
 
-/// Returns a parallel projection that looks along -z. In the view, the square from (-1, -1) to (1, 1) is 800 pixels
+/// Returns a parallel projection in the direction -z. In the picture, the square from (-1, -1) to (1, 1) is 800 pixels
 /// wide.
 fn front() -> Projection {
     // The depth is 0 at z = 5 and 1 at z = -5.
@@ -58,7 +58,8 @@ fn a_point_picks_the_smallest_thing_within_the_radius() {
         panic!()
     };
     assert_eq!(mesh.position(v), DVec3::new(-0.5, 0.5, 0.5));
-    // The first two pixels are beside the cube and within the pick radius. The third pixel is too far from the cube.
+    // The first two points are outside the cube, but within the pick radius of an edge or a vertex. The third point is
+    // too far from the cube.
     assert!(matches!(element(400.0, 195.0), Some(Element::Edge(_))));
     assert!(matches!(element(196.0, 196.0), Some(Element::Vertex(_))));
     assert_eq!(element(400.0, 190.0), None);

@@ -108,7 +108,8 @@ fn one_level_of_a_small_mesh_has_edits_and_several_levels_have_none() {
         let played = editor
             .play(1)
             .map(|(object, play)| (object, play.edits().len()));
-        // The 51 edits are 30 splits, 20 flips and one movement of all vertices.
+        // One level of Loop subdivision of an icosahedron has 51 edits: 30 splits, 20 flips and one movement of all
+        // vertices.
         assert_eq!(played, expected.then(|| ("icosahedron".to_owned(), 51)));
     }
 }

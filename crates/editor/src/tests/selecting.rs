@@ -1,4 +1,4 @@
-//! Sets of picked elements, proposals, keys and control points.
+//! Tests of picked elements, proposals of selections, keys and control points.
 
 use mesh::{DVec2, DVec3, Domain, Mesh};
 use op::{ElementKind, Selected};
@@ -90,8 +90,8 @@ fn a_proposal_means_exactly_the_picked_elements_and_fails_closed() {
     let [v, w] = mesh.edge_vertices(inner).map(mesh::VertexId::index);
     let loops = text(&format!("EdgeLoop(Between({v}, {w}))"), ElementKind::Edges);
     assert!(loops.contains("EdgeLoop("), "{loops}");
-    // If only a long list of indices describes the elements, an additional step gives them a tag, and the selection
-    // uses this tag.
+    // If no selection except a long list of indices gives the elements, the proposal adds a step that tags the
+    // elements, and selects them by this tag.
     for (kind, operation) in [
         (ElementKind::Vertices, "TagVertices"),
         (ElementKind::Edges, "TagEdges"),
@@ -119,7 +119,7 @@ fn picks_without_a_meaning_become_a_tag_and_a_step() {
     );
     editor.set_picked(Some(set.unwrap()));
     assert_eq!(editor.proposals().len(), 1);
-    // If the command itself tags the elements, no other step tags them first.
+    // If the command is an operation that tags the elements, no additional step tags them first.
     let selection = editor.selection();
     let tag = Command {
         selection,
@@ -178,8 +178,8 @@ fn a_selection_of_another_kind_is_converted_and_names_its_object() {
 #[test]
 fn a_written_selection_picks_its_elements_and_is_used_by_the_next_step() {
     let (mut editor, _) = opened("(recipe: 1, steps: [Cube(name: \"a\")])");
-    // No elements are picked yet. So the selection is evaluated on the first mesh, and the kind of elements follows
-    // from the text.
+    // If no elements are picked, the selection is evaluated on the first mesh, and the text decides the kind of
+    // elements.
     editor
         .pick_by_text("Sharp(above: 30)", ElementKind::Faces)
         .unwrap();
@@ -218,7 +218,7 @@ fn the_selections_of_a_large_pick_are_searched_beside_the_window() {
         std::thread::sleep(Duration::from_millis(2));
     }
     assert_eq!(editor.proposals(), propose(&scene, &set, ""));
-    // A command waits until the search has ended.
+    // `selection` waits until the search for proposals has ended.
     editor.set_picked(Some(set));
     assert!(editor.selection().is_some());
 }
@@ -321,7 +321,7 @@ fn a_control_point_under_the_cursor_is_dragged_in_its_plane() {
     use scene::{Geometry, Object, Scene};
 
     let size = DVec2::new(400.0, 300.0);
-    // A camera at (2, 3, 9). Its view direction is rotated slightly away from the direction -z.
+    // The camera is at (2, 3, 9). Its view direction differs slightly from -z.
     let (near, far) = (0.5, 30.0);
     let lens = DMat4::from_cols(
         DVec4::new(2.4, 0.0, 0.0, 0.0),
@@ -351,8 +351,8 @@ fn a_control_point_under_the_cursor_is_dragged_in_its_plane() {
             ("a", index, point)
         );
         assert!(hit.dragged_to(&view, pixel).unwrap().distance(point) < 1e-9);
-        // The new position is visible at the cursor. A point of a curve stays in the plane z = 0, and a point of a
-        // patch keeps its depth.
+        // In the picture, the new position is at the cursor. A point of a curve stays in the plane z = 0, and a point
+        // of a patch keeps its depth.
         let to = hit
             .dragged_to(&view, pixel + DVec2::new(40.0, 25.0))
             .unwrap();
@@ -388,6 +388,6 @@ fn dragging_a_control_point_of_patches_is_one_step() {
         "{text}"
     );
     assert_eq!(editor.outline().steps.len(), 2);
-    // The first point of the next patch had the same position, and moves too.
+    // The first point of the next patch was at the same position, so it moves too.
     assert_eq!([points(&editor)[3], points(&editor)[16]], [to; 2]);
 }

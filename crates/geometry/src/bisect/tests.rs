@@ -6,7 +6,7 @@ use super::*;
 use crate::{area, n_components, shapes};
 use mesh::{CREASE, DVec2, MATERIAL, UV};
 
-/// Cuts the mesh and checks the properties of every cut. Also reverts and repeats the cut.
+/// Cuts the mesh, and checks the properties that every cut must have. Also reverts the cut and makes it again.
 fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     let mut mesh = before.clone();
     mesh.begin();
@@ -35,7 +35,7 @@ fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     for e in mesh.edges() {
         let on_plane = mesh.edge_vertices(e).map(|v| height(v).abs() <= near);
         assert_eq!(on_plane == [true; 2], cut.edges.binary_search(&e).is_ok());
-        // Only edges with an end on the plane can be very short.
+        // An edge can be very short only if one of its ends is on the plane.
         assert!(mesh.length(e.half_edges()[0]) > 0.1 * near || on_plane != [false; 2]);
     }
     (mesh, cut)
@@ -106,7 +106,7 @@ fn vertices_on_the_plane_do_not_move_and_edges_on_it_are_returned() {
         (found.edges.len(), found.front.len(), found.back.len()),
         (4, 4, 4)
     );
-    // The distance from the plane to the ends of these edges is below the tolerance.
+    // The plane is 1e-9 above the middle vertices. This distance is below the tolerance, so no edge is cut.
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-9, DVec3::Z);
     assert_eq!(mesh, shapes::octahedron());
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-8, DVec3::Z);
@@ -144,14 +144,14 @@ fn a_concave_face_is_cut_several_times() {
     );
     assert!((area(&mesh) - area(&comb)).abs() < 1e-12);
     assert!(mesh.faces().all(|f| mesh.area_vector(f).z > 0.0));
-    // The plane cuts through the corners at the bottoms of the gaps.
+    // The plane passes through the lowest corner of each gap between the teeth of the comb.
     let (mesh, found) = cut(&comb, DVec3::Y, DVec3::Y);
     assert_eq!(
         (found.front.len(), found.back.len(), found.edges.len()),
         (4, 1, 4)
     );
     assert!(mesh.faces().all(|f| mesh.area_vector(f).z > 0.0));
-    // The plane cuts along the bottom of the comb.
+    // The plane contains the bottom edge of the comb.
     let (mesh, found) = cut(&comb, DVec3::ZERO, DVec3::Y);
     assert_eq!((mesh, found.edges.len()), (comb, 1));
 }
@@ -199,7 +199,7 @@ fn a_face_around_a_hole_is_cut_on_both_sides_of_it() {
     let keyhole = [0, 1, 2, 3, 0, 7, 4, 5, 6, 7].map(|i: usize| points[i]);
     let mesh = polygon(&keyhole);
     assert!((area(&mesh) - 48.0).abs() < 1e-12);
-    // Cuts across the slit, then across the hole.
+    // The first plane crosses the slit. The second plane crosses the hole.
     let (mesh, found) = cut(&mesh, DVec3::Y * -3.0, DVec3::Y);
     assert_eq!((found.edges.len(), mesh.n_faces()), (2, 3));
     let (mesh, found) = cut(&mesh, DVec3::ZERO, DVec3::Y);

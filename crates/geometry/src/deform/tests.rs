@@ -23,7 +23,7 @@ fn twists_follow_the_closed_form_and_the_opposite_angle_is_the_inverse() {
         angle: -180.0,
         ..twist
     };
-    // At a quarter of the height, the angle is 45 degrees; beyond the end, 180 degrees.
+    // At a quarter of the height, the twist is 45 degrees. Beyond the end of the axis, it is 180 degrees.
     let h = 0.5_f64.sqrt();
     assert!(twist.point(DVec3::X).distance(DVec3::new(h, h, 0.0)) < 1e-15);
     assert_eq!(
@@ -83,7 +83,7 @@ fn a_tapered_column_has_the_volume_of_a_frustum() {
 #[test]
 fn bends_put_the_axis_on_a_circle_and_keep_its_length() {
     use std::f64::consts::PI;
-    // An axis of length 4 becomes a quarter of a circle with the radius 8 / pi.
+    // The axis has length 4. The bend maps it to a quarter of a circle with the radius 8 / pi.
     let bend = Bend {
         frame: FRAME,
         angle: 90.0,
@@ -100,11 +100,11 @@ fn bends_put_the_axis_on_a_circle_and_keep_its_length() {
             assert_eq!(p.y, 0.25);
         }
     }
-    // Beyond the end, the axis continues in the direction x.
+    // Beyond its end, the bent axis continues straight in the direction x.
     let end = bend.point(DVec3::new(0.0, 0.0, 3.0));
     let beyond = bend.point(DVec3::new(0.0, 0.0, 5.0));
     assert!(beyond.distance(end + 2.0 * DVec3::X) < 1e-14);
-    // Below the start, nothing moves.
+    // Points below the start of the axis do not move.
     assert_eq!(
         bend.point(DVec3::new(1.0, 2.0, -7.0)),
         DVec3::new(1.0, 2.0, -7.0)

@@ -26,8 +26,8 @@ fn between(a: &Mesh, b: &Mesh, tolerance: f64) -> Distance {
     found
 }
 
-/// Returns the largest distance of the sample points of `a` from `b`. The samples are a grid on each triangle of `a`,
-/// with `rows` + 1 points along each side.
+/// Returns the largest distance from sample points on `a` to `b`. The sample points form a grid on each triangle of
+/// `a`, with `rows` + 1 points along each side.
 fn sampled_distance(a: &Mesh, b: &Mesh, rows: u32) -> f64 {
     let mut largest = 0.0_f64;
     let triangles_of = |mesh: &Mesh| {
@@ -60,7 +60,7 @@ fn a_search_near_a_face_with_many_corners_visits_few_nodes() {
     let n = 5000_u32;
     let at = |i: u32| {
         let angle = std::f64::consts::TAU * f64::from(i) / f64::from(n);
-        // The face is turned, so that no side of a bounding box is parallel to it.
+        // The face is rotated, so that it is not parallel to a side of its bounding box.
         let [x, y] = [libm::cos(angle), libm::sin(angle)];
         DVec3::new(x, 0.8 * y, 0.6 * y)
     };
@@ -112,7 +112,7 @@ fn the_distance_of_parallel_sheets_does_not_depend_on_their_faces() {
 fn the_distance_of_concentric_spheres_is_the_difference_of_radii() {
     let sphere = |radius: f64, around| moved(shapes::uv_sphere(around, around / 2), |p| p * radius);
     let found = between(&sphere(1.0, 64), &sphere(1.5, 48), 1e-4);
-    // The edges of the polyhedra are chords of the spheres and lie inside them.
+    // The edges of the polyhedra are chords of the spheres, so the polyhedra lie inside the spheres.
     assert!(
         found.largest() > 0.49 && found.at_most() < 0.505,
         "{found:?}"
@@ -122,7 +122,7 @@ fn the_distance_of_concentric_spheres_is_the_difference_of_radii() {
 
 #[test]
 fn a_spike_over_the_inside_of_a_large_face_is_found() {
-    // A spike ends above a point of the square that is neither a vertex nor a center.
+    // The tip of a spike is above a point of the square that is neither a vertex nor the center.
     let foot = DVec3::new(0.31, 0.17, 0.0);
     let square = shapes::square();
     let mut positions: Vec<DVec3> = square.vertices().map(|v| square.position(v)).collect();
@@ -132,7 +132,7 @@ fn a_spike_over_the_inside_of_a_large_face_is_found() {
         &[&[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]],
     );
     let found = between(&square, &spike, 1e-6);
-    // The tip is 1 above the square.
+    // The tip of the spike is at height 1 above the square.
     assert!((found.back.largest - 1.0).abs() < 1e-6, "{found:?}");
     assert_eq!(found.back.from.on, Element::Vertex(VertexId::new(4)));
     assert!(found.back.to.position.distance(foot) < 1e-12);
@@ -145,7 +145,7 @@ fn a_spike_over_the_inside_of_a_large_face_is_found() {
 
 #[test]
 fn a_fold_below_no_vertex_or_center_is_found() {
-    // A deep fold lies below a long triangle, between its vertices.
+    // The folded surface goes down to z = -3 below a side of the flat triangle, between the vertices of this side.
     let flat = of(
         &[
             DVec3::ZERO,
@@ -207,7 +207,7 @@ fn the_bounds_hold_for_randomly_deformed_meshes() {
                 side.at_most >= sampled - 1e-12,
                 "{round}: {side:?} {sampled}"
             );
-            // The distance between samples is a fortieth of a side.
+            // Neighboring samples are a fortieth of a side apart.
             assert!(
                 side.largest <= sampled + 0.12,
                 "{round}: {side:?} {sampled}"
@@ -299,7 +299,7 @@ fn vertex_distances_are_those_of_each_vertex() {
     assert_eq!(vertex_distances(&cube, &Mesh::default()), None);
 }
 
-/// Returns a star of one face, whose corners lie alternately on two circles.
+/// Returns a star that is a single face. The corners of the face lie alternately on two circles.
 fn star(n: u32) -> Mesh {
     let corner = |i: u32| {
         let radius = 1.0 + 0.5 * f64::from(i % 2);
@@ -341,7 +341,7 @@ fn the_nearest_point_of_one_large_face_takes_few_visits() {
 
 #[test]
 fn a_measurement_can_be_cancelled_at_any_report() {
-    /// A listener that cancels after this number of reports.
+    /// A listener that cancels the computation after the given number of progress reports.
     struct Stop(std::sync::atomic::AtomicU64);
     impl Progress for Stop {
         fn advance(&self, _: &str, _: u64, _: u64) -> bool {
@@ -358,7 +358,7 @@ fn a_measurement_can_be_cancelled_at_any_report() {
     }
 }
 
-/// The nearest-point searches of these surfaces need oriented boxes.
+/// Searches for the nearest points of these surfaces are fast only with oriented bounding boxes.
 #[test]
 fn the_bounds_hold_for_surfaces_of_thin_triangles() {
     let tilted = |mesh: Mesh| {
@@ -395,7 +395,8 @@ fn the_bounds_hold_for_surfaces_of_thin_triangles() {
             (&found.back, &b, sampled_distance(&b, &a, rows)),
         ] {
             assert!(side.at_most >= sampled - 1e-12, "{side:?} {sampled}");
-            // No point is further from a sample than the longest side divided by the number of rows.
+            // The distance from any point to the nearest sample is at most the length of the longest side, divided by
+            // the number of rows.
             let longest = mesh
                 .edges()
                 .map(|e| mesh.length(e.half_edge()))

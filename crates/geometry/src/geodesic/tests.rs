@@ -140,7 +140,7 @@ fn vertices_that_cannot_be_reached_are_infinitely_far() {
 
 #[test]
 fn long_surfaces_are_measured_to_their_end() {
-    // The strip is 3000 edges long. In a short time, heat does not reach its end.
+    // The strip is 3000 edges long. Heat that flows only for a short time does not reach the end of the strip.
     let mut strip = shapes::grid(3000, 1);
     for p in strip.positions_mut() {
         p.x *= 1500.0;

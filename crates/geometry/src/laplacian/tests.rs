@@ -180,7 +180,7 @@ fn degenerate_and_extreme_meshes_have_finite_entries_and_positive_areas() {
 
 #[test]
 fn harmonic_functions_are_within_the_bounds_of_their_boundary_values() {
-    // The triangles of the regular grid are Delaunay, so that no weight is negative.
+    // The triangles of the regular grid are a Delaunay triangulation, so no cotangent weight is negative.
     let mut mesh = uneven_grid(12, true);
     mesh.positions_mut()
         .copy_from_slice(shapes::grid(12, 12).positions());

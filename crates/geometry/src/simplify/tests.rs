@@ -59,7 +59,7 @@ pub(crate) fn square(n: u32) -> Mesh {
     mesh
 }
 
-/// Returns two spheres, one just outside the other, so that coarse faces of the two would cross.
+/// Returns two spheres with almost the same radius, one inside the other. Coarse faces of the two spheres would cross.
 fn nested_spheres() -> Mesh {
     let outer = shapes::fans(&shapes::uv_sphere(40, 20));
     let mut inner = outer.clone();
@@ -371,7 +371,7 @@ fn set_uv(mesh: &mut Mesh, at: impl Fn(DVec3) -> DVec2) {
     mesh.set(UV, uvs);
 }
 
-/// Returns the mean distance between the texture coordinates of a mesh in the plane z = 0 and the function `at`.
+/// Returns the mean distance between the texture coordinates of a mesh in the plane z = 0 and the values of `at`.
 fn texture_error(mesh: &Mesh, at: impl Fn(DVec3) -> DVec2) -> f64 {
     let uv = mesh.get(UV).unwrap();
     let (mut sum, mut area) = (0.0, 0.0);
@@ -395,13 +395,14 @@ fn texture_error(mesh: &Mesh, at: impl Fn(DVec3) -> DVec2) -> f64 {
 
 #[test]
 fn texture_coordinates_are_a_part_of_the_cost() {
-    // The texture changes quickly at x = 0.5.
+    // The texture coordinate u changes quickly near x = 0.5.
     let at = |p: DVec3| DVec2::new(p.x + 0.2 * libm::tanh(15.0 * (p.x - 0.5)), p.y);
     let flat = square(32);
     let mut textured = flat.clone();
     set_uv(&mut textured, at);
     let with = simplified(&textured, &to(120)).mesh;
-    // The same number of triangles, placed without regard to the texture, with the best texture coordinates.
+    // The mesh without texture is simplified to the same number of triangles. It then gets the exact texture
+    // coordinates at its vertices.
     let mut without = simplified(&flat, &to(120)).mesh;
     set_uv(&mut without, at);
     let [with, without] = [with, without].map(|mesh| texture_error(&mesh, at));
@@ -508,12 +509,12 @@ fn an_error_is_never_exceeded() {
     };
     let sphere = triangles(&shapes::uv_sphere(40, 20));
     let cylinder = triangles(&shapes::cylinder(40, true));
-    // For each mesh, the largest allowed number of remaining faces at an error of 0.05.
+    // Each mesh is listed with the maximum number of its remaining faces if the error is 0.05.
     for (mesh, most) in [(torus(), 700), (waves(), 90), (sphere, 450), (cylinder, 90)] {
         let sizes = [1e-9, 0.001, 0.01, 0.05].map(|error| reduced(&mesh, error));
         assert!(sizes[3] <= most, "{sizes:?}");
     }
-    // Flat regions are reduced as far as possible at any error.
+    // A flat square is reduced to two triangles, even if the error is tiny.
     assert_eq!(reduced(&square(20), 1e-6), 2);
 }
 
@@ -536,7 +537,8 @@ fn it_can_be_cancelled() {
 }
 
 proptest! {
-    /// The input is any list of triangles, including degenerate ones, with any coordinates.
+    /// The input is any list of triangles between points of a small grid, including triangles without area, at any
+    /// scale.
     #[test]
     fn soups_of_triangles_keep_the_invariants(
         points in proptest::collection::vec((0..4_u8, 0..4_u8, 0..4_u8), 4..24),

@@ -223,8 +223,8 @@ fn explicit_steps_stay_within_the_bounds_of_the_mesh() {
 
 #[test]
 fn one_implicit_step_shrinks_a_sphere_by_the_exact_factor() {
-    // The coordinates on a unit sphere are eigenfunctions of the Laplacian, so a step multiplies the radius by
-    // 1 / (1 + 2 time).
+    // The coordinates x, y and z on the unit sphere are eigenfunctions of the Laplacian with the eigenvalue 2. A step
+    // therefore multiplies the radius by 1 / (1 + 2 time).
     let sphere = shapes::uv_sphere(96, 48);
     for time in [1e-3, 0.1, 1.0, 10.0] {
         let after = smoothed(sphere.clone(), Method::Implicit { time }, 1);
@@ -341,7 +341,7 @@ fn the_volume_is_kept_with_and_without_pins() {
 
 #[test]
 fn volumes_that_cannot_be_restored_are_reported_in_scene_units() {
-    // All vertices move to one point, so no movement along normals changes the volume.
+    // Smoothing moves all vertices to one point. The mesh then has no normals, so its volume cannot be restored.
     let mut mesh = shapes::tetrahedron();
     for p in mesh.positions_mut() {
         *p *= 100.0;
@@ -361,8 +361,8 @@ fn volumes_that_cannot_be_restored_are_reported_in_scene_units() {
 
 #[test]
 fn a_free_boundary_is_smoothed_as_a_curve() {
-    // The inner vertices have arbitrary heights. The boundary is flat and stays flat, but its corners become
-    // round.
+    // The inner vertices have pseudorandom heights, and the boundary is flat. Smoothing keeps the boundary flat, but
+    // rounds its corners.
     let mut mesh = shapes::grid(8, 8);
     let inner: Vec<VertexId> = mesh
         .vertices()

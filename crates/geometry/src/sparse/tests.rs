@@ -128,7 +128,8 @@ fn a_long_chain_does_not_overflow_the_stack() {
 
 #[test]
 fn the_fill_of_a_grid_is_near_n_log_n() {
-    // Nested dissection of a square grid of this size creates about 7.75 n log2(side) entries (George, 1973).
+    // If the unknowns of a square grid are ordered by nested dissection, the factor has about 7.75 n log2(side) entries
+    // (George, 1973).
     let side = 100_u32;
     let a = grid(side, 1.0);
     let entries = Factor::new(&a, &NoProgress).unwrap().n_entries() as f64;
@@ -149,7 +150,8 @@ fn indefinite_singular_and_bad_matrices_are_refused() {
         let refused = Factor::new(&matrix, &NoProgress).map(|f| f.n_entries());
         let is_refused = match refused {
             Err(SolveError::NotPositiveDefinite { row, .. }) => row < 25,
-            // The last pivot of a singular matrix is a rounding error, positive or negative.
+            // The last pivot of the singular matrix is a rounding error, so it can be positive. The matrix is then
+            // accepted.
             other => other.is_ok() && matrix.get(0, 0) == 2.0,
         };
         assert!(is_refused);
@@ -208,8 +210,8 @@ proptest! {
         let factor = Factor::with_pins(&a, pins, &NoProgress).unwrap();
         let mut x = vec![0.25; n as usize];
         factor.solve(b, &mut x).unwrap();
-        // The oracle solves the same equations, with the rows and columns of the pinned unknowns replaced by
-        // those of the identity matrix.
+        // The expected solution comes from the same equations, but the rows and columns of the pinned unknowns are
+        // replaced by those of the identity matrix.
         let mut replaced = Vec::new();
         for i in 0..n {
             for (j, value) in a.row(i as usize).filter(|&(j, _)| j <= i) {

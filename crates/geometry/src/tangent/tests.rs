@@ -45,7 +45,8 @@ fn assert_orthonormal(mesh: &Mesh, tangents: &Tangents) {
 
 #[test]
 fn the_tangent_of_a_plane_points_along_u_and_the_bitangent_along_v() {
-    // Each map has an expected tangent t. The bitangent, w times the cross product n x t, must point along v.
+    // The expected tangent t points along u. The bitangent, which is w times the cross product n x t, must point along
+    // v.
     let (x, y) = (DVec2::X, DVec2::Y);
     for (u, v) in [(x, y), (-x, y), (x, -y), (y, x), (-y, x), (-x, -y)] {
         let mesh = mapped(shapes::grid(4, 3), |p| {
@@ -80,7 +81,7 @@ fn mirrored_halves_have_opposite_signs() {
 #[test]
 fn the_tangent_of_a_cylinder_runs_around_its_axis() {
     let mut mesh = mapped(shapes::torus(48, 24, 3.0, 1.0), |_| DVec2::ZERO);
-    // u is the angle around the axis, without a jump inside a face.
+    // u is the angle around the z axis. Inside a face, this angle does not jump from pi to -pi.
     let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
     for f in mesh.faces() {
         let center = mesh.face_center(f);
@@ -98,7 +99,8 @@ fn the_tangent_of_a_cylinder_runs_around_its_axis() {
     let tangents = of(&mesh);
     for h in corners(&mesh) {
         let p = mesh.position(mesh.origin(h));
-        // Where z hardly changes, v defines no direction, but u does.
+        // Near the top and the bottom of the torus, z hardly changes, so v defines no direction. These corners are
+        // skipped.
         if p.z.abs() < 0.8 {
             let around = DVec3::new(-p.y, p.x, 0.0).normalize();
             let t = tangents.values[h.index()].truncate();

@@ -22,7 +22,7 @@ fn unwrapped(mesh: &Mesh) -> Unwrapped {
     unwrap(mesh, &options(&[]), &NoProgress).unwrap()
 }
 
-/// Returns a sphere without its top.
+/// Returns a sphere from which the top was removed.
 fn bowl() -> Mesh {
     let mut mesh = shapes::uv_sphere(24, 16);
     let lid: Vec<_> = mesh
@@ -140,7 +140,7 @@ fn a_developable_surface_becomes_one_chart_without_stretch() {
 
 #[test]
 fn the_faces_of_a_chart_are_divided_among_its_neighbors() {
-    // Without the step that dissolves charts, there would be six charts.
+    // The step that dissolves charts reduces six charts to four.
     assert_eq!(unwrapped(&shapes::icosahedron()).charts.n, 4);
 }
 
@@ -322,7 +322,7 @@ fn packed_charts_have_one_scale_and_keep_their_shapes() {
         );
         assert_eq!(overlapping(&packed.uvs), []);
         let measured = stretch(&mesh, &packed.uvs).unwrap();
-        // The mirrored face remains mirrored.
+        // The two triangles of the first face stay mirrored.
         assert_eq!(measured.n_mirrored, 2);
         assert!((measured.max_aspect - 1.0).abs() < 1e-9, "{measured:?}");
         assert!((measured.scales - 1.0).abs() < 1e-9, "{measured:?}");
@@ -358,8 +358,8 @@ fn charts_that_overlap_themselves_are_packed_by_their_hulls() {
 
 #[test]
 fn a_chart_of_many_triangles_that_overlaps_itself_is_packed_by_its_hull() {
-    // The texture coordinates are a projection along the axis of the cylinder: both caps become the same disk, and the
-    // sides have zero area.
+    // The texture coordinates project the cylinder along its axis. In the texture, both caps are the same disk, and the
+    // side faces have zero area.
     let mesh = shapes::cylinder(300, true);
     let uv = |h| mesh.position(mesh.origin(HalfEdgeId::new(h))).truncate();
     let uvs: Vec<DVec2> = (0..mesh.n_half_edges()).map(uv).collect();
@@ -387,7 +387,8 @@ fn long_convex_charts_of_many_triangles_do_not_overlap_after_packing() {
 
 #[test]
 fn a_hull_with_two_points_that_nearly_coincide_stays_in_one_part() {
-    // Two quads that lie on each other in the texture, and six squares. Two corners of the quads nearly coincide.
+    // The mesh has a chart of two quads that overlap in the texture, and six charts that are squares. A corner of the
+    // one quad nearly coincides with a corner of the other.
     let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 4]>::new());
     for (x, y) in [(0, 0), (1, 0), (1, 1), (0, 1), (-1, 0), (-1, 1)] {
         positions.push(DVec3::new(f64::from(x), f64::from(y), 0.0));
@@ -417,8 +418,8 @@ fn a_hull_with_two_points_that_nearly_coincide_stays_in_one_part() {
     assert_eq!(overlapping, [0, 1].map(FaceId::new));
 }
 
-/// The two caps are charts of one face with many corners. The packing replaces them by their hulls, and leaves out most
-/// of the corners.
+/// Each cap is a chart with a single face of many corners. The packing replaces each cap by its convex hull, and leaves
+/// out most corners of the hull.
 #[test]
 fn charts_of_faces_with_many_corners_cover_as_much_of_the_page_as_those_of_faces_with_few() {
     let charts = |around| {

@@ -1,4 +1,4 @@
-//! Tests of the check against derived schemas, compared with what `ron` accepts.
+//! Tests of checking texts against schemas. The results are compared with the texts that the crate `ron` accepts.
 
 use super::*;
 use crate::substitute;
@@ -124,14 +124,14 @@ fn problems(source: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns the only error of a step with the valid parameter `levels` and these parameters.
+/// Returns the only error of a step that has these parameters and the valid parameter `levels`.
 fn problem(parameters: &str) -> String {
     let mut found = problems(&format!("Everything(levels: 1, {parameters})"));
     assert_eq!(found.len(), 1, "{parameters}: {found:#?}");
     found.remove(0)
 }
 
-/// Returns the help text of the only error of a step with the valid parameter `levels` and these parameters.
+/// Returns the help text of the only error of a step that has these parameters and the valid parameter `levels`.
 fn help(parameters: &str) -> String {
     let parsed = parse(&format!("Everything(levels: 1, {parameters})"));
     check_step(&parsed.value, &schema())
@@ -391,7 +391,7 @@ fn unknown_variants_are_errors() {
         "variants: `Area`, `Angle`, `Uniform`"
     );
     assert_eq!(help("edges: Random"), "write `Random(count: ..)`");
-    // The help names the field that a value without a name belongs to.
+    // If a value is written without the name of its field, the help contains this name.
     assert_eq!(help("edges: Random(3)"), "write `(count: 3)`");
     assert_eq!(help("nested: 1.5"), "write `(width: 1.5)`");
     assert_eq!(help("at: Up"), "write numbers, such as `(0.5, 0.5, 0.5)`");

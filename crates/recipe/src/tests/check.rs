@@ -105,7 +105,7 @@ fn a_problem_is_shown_at_its_parameter() {
         "that is too high",
         "",
     );
-    // A parameter that was omitted has no span, so the name of the step is shown.
+    // A parameter that the recipe omits has no span. The problem is then shown at the name of the operation.
     has_one_error(
         &steps("Sheet(columns: 1), (id: \"again\", run: Sheet(columns: 1))"),
         "Sheet",
@@ -237,6 +237,6 @@ fn unchanged_objects_are_not_visited_again() {
     let forecast = crate::check(&recipe, &op::Files::default(), u64::MAX);
     assert!(!forecast.has_errors());
     assert_eq!(forecast.steps[1999].faces, Range::exactly(2000));
-    // If each step visited all objects, the number of visits would be two million.
+    // Each step visits only its own object. If each step visited all objects, there would be two million visits.
     assert_eq!(VISITED.get(), 2000);
 }

@@ -83,7 +83,7 @@ pub(crate) struct Lift {
     /// Which vertices.
     #[serde(default)]
     vertices: VertexSelection,
-    /// The reason with which the operation refuses its input after it has lifted some of the vertices.
+    /// If given, the operation fails with this reason after it has lifted some of the vertices.
     #[serde(default)]
     fails: Option<Refusal>,
 }

@@ -1,4 +1,4 @@
-//! Tests of reading: every error is reported with its span.
+//! Tests of reading recipes. Every error is reported with its span in the text.
 
 use super::{read, read_with, registry, shown, steps};
 use crate::Severity;

@@ -273,7 +273,7 @@ fn a_mesh_that_exceeds_the_budget_is_not_built() {
     assert!(outcome.scene.unwrap().objects().is_empty());
 }
 
-/// A listener that cancels the run at a given call, and records the events.
+/// A listener that cancels the run in a given call of `advance`, and counts the calls and the steps.
 struct Cancel {
     at: u64,
     calls: AtomicU64,
@@ -322,7 +322,7 @@ fn a_run_can_be_cancelled_at_any_call_and_nothing_is_written() {
     for at in 1..=calls {
         let (outcome, begun, done, heard, written) = cancelled(at);
         assert!(outcome.cancelled && !outcome.succeeded(), "{at}");
-        // After the call that cancels, the listener receives no more calls.
+        // The run does not call `advance` again after the call that cancels it.
         assert_eq!(heard, at);
         assert_eq!(begun, done + 1);
         assert_eq!(outcome.steps.len() as u64, done);
@@ -338,7 +338,7 @@ fn a_run_can_be_cancelled_at_any_call_and_nothing_is_written() {
 fn outputs_do_not_follow_links_out_of_the_folder() {
     let (folder, elsewhere) = (folder(), folder());
     let reading = read(&steps("Sheet(columns: 1), Write(path: \"link/new/a.txt\")"));
-    // The link in the output folder is created only after the recipe was read.
+    // The output folder gets a link to another folder, but only after the recipe was read.
     let files = files(&reading, folder.path());
     let settings = Settings {
         files: &files,
@@ -372,7 +372,8 @@ fn a_step_that_panics_fails_the_run_and_nothing_is_written() {
     assert_eq!(entries(folder.path()), [""; 0]);
 }
 
-/// A listener that records the message, the locations and the scene's digest of each failure.
+/// A listener that records the message and the locations of each failure, and the digest of the scene in which it
+/// occurred.
 #[derive(Default)]
 struct Failures(Mutex<Vec<(String, Vec<ErrorLocation>, Digest)>>);
 
@@ -446,6 +447,6 @@ fn unmet_expectations_report_the_elements_and_the_scene_after_their_step() {
     assert!(open.iter().map(|place| &place.name).eq(&names) && names.len() > 3);
     assert!(open.iter().all(|place| place.points.len() == 2));
     assert!(none.is_empty());
-    // The step after the failed expectation has changed the scene.
+    // Both failures have the scene after the step `sheet`. The next step has changed the final scene.
     assert!(first == second && *first != scene.digest());
 }

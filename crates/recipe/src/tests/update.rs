@@ -1,4 +1,4 @@
-//! Tests of updating: only recorded values are replaced.
+//! Tests that `update` replaces only recorded values.
 
 use proptest::prelude::*;
 
@@ -149,7 +149,7 @@ fn changes_have_their_lines_and_the_rest_of_the_text_stays() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// If recorded numbers of a recipe are changed at random, updating the recipe restores the original text.
+    /// The recorded numbers in a recipe are changed at random. The update of the recipe restores the original text.
     #[test]
     fn changed_numbers_are_restored(
         columns in 1_u32..40,

@@ -1,4 +1,4 @@
-//! Tests of old names: they are read with a warning, and replaced by `upgrade`.
+//! Tests of old names in recipes: the reader accepts them with a warning, and `upgrade` replaces them.
 
 use super::{read, registry, shown, steps};
 use crate::upgrade::upgrade;

@@ -34,7 +34,7 @@ fn a_cube_keeps_all_rotations() {
     assert_eq!(refused, []);
     assert_eq!(counts(&mesh), [24, 48, 26]);
     assert!(mesh.is_closed());
-    // The vertices are all permutations of (1/2, 1/2, 1) with all signs.
+    // The vertices are all permutations of (±1/2, ±1/2, ±1).
     for p in mesh.positions() {
         let mut sorted = p.abs().to_array();
         sorted.sort_by(f64::total_cmp);
@@ -54,7 +54,7 @@ fn the_inner_corner_of_a_profile_does_not_cross_itself() {
     assert!(mesh.is_closed());
     assert_eq!(genus(&mesh), 0);
     assert_eq!(mesh.n_faces(), 8 + 18 + 12);
-    // The bottom and the top shrink by the width on all sides.
+    // Each side of the bottom face and of the top face moves inward by the width.
     for f in [0, 1].map(FaceId::new) {
         assert!((mesh.area_vector(f).length() - (3.0 - 8.0 * 0.1 + 4.0 * 0.01)).abs() < 1e-12);
     }
@@ -69,7 +69,7 @@ fn the_inner_corner_of_a_profile_does_not_cross_itself() {
             .iter()
             .any(|p| p.distance(DVec3::new(0.9, 0.9, 1.0)) < 1e-15)
     );
-    // Along the inner edge, which is concave, the bevel adds material.
+    // The bevel adds material only along the inner edge, which is concave. It removes material along all other edges.
     assert!(volume(&mesh) < volume(&before));
 }
 
@@ -84,7 +84,8 @@ fn one_edge_becomes_one_face() {
 
 #[test]
 fn the_width_is_the_distance_to_the_edge_at_any_angle() {
-    // The edge from vertex 0 to vertex 1 is beveled. The other edges at these two vertices meet it at different angles.
+    // The edge from vertex 0 to vertex 1 is beveled. At both vertices, the other edges meet this edge at different
+    // angles.
     let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = vec![
         p(0., 0.),
@@ -197,7 +198,7 @@ proptest! {
         prop_assert_eq!(new.euler_characteristic(), mesh.euler_characteristic());
         prop_assert_eq!(new.n_boundary_loops(), mesh.n_boundary_loops());
         prop_assert!(new.n_faces() >= mesh.n_faces() + edges.len() - refused.len());
-        // The order of the edges does not matter.
+        // The result does not depend on the order of the edges.
         let reversed: Vec<EdgeId> = edges.into_iter().rev().collect();
         prop_assert!(bevel_edges(&mesh, &reversed, width).mesh == new);
     }

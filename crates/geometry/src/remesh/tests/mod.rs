@@ -19,7 +19,7 @@ fn to(length: f64) -> Options<'static> {
     }
 }
 
-/// Remeshes, and checks the properties of every result.
+/// Remeshes a mesh, and checks the properties that every result must have.
 fn remeshed(mesh: &Mesh, options: &Options) -> Remeshed {
     let result = remesh(mesh, options, &NoProgress).unwrap();
     let after = &result.mesh;
@@ -94,8 +94,8 @@ fn triangles_are_even_and_near_the_original() {
             (0.8..=4.0 / 3.0).contains(&relative)
         });
         assert!(in_range > 0.95, "{in_range}");
-        // Vertices lie on the original surface. The largest distance of the triangles follows from their size and the
-        // curvature.
+        // The vertices lie on the original surface. The distance of the triangles from the original surface is limited
+        // by their size and the curvature.
         let distance = Distance::between(&mesh, &after, None).unwrap();
         let curvature = if mesh.euler_characteristic() == 2 {
             1.0
@@ -127,7 +127,7 @@ fn a_cube_keeps_its_corners_its_edges_and_its_volume() {
     }
     assert_eq!(crate::bounds(&after), crate::bounds(&cube));
     assert!((crate::volume(&after) - crate::volume(&cube)).abs() < 1e-12);
-    // The cube has 12 edges of length 2.
+    // The sharp edges of the result cover the 12 edges of the cube, which have length 2.
     let sides: f64 = sharp(&after, 80.0)
         .into_iter()
         .map(|e| after.length(e.half_edges()[0]))
@@ -151,7 +151,8 @@ fn vertices_on_features_slide_along_their_curve() {
     let after = remeshed(&cylinder, &options).mesh;
     let rim = sharp(&after, 80.0);
     assert!(rim.len() > 100 && rim.len() < 170, "{}", rim.len());
-    // Each vertex of the rim lies on a side of the regular polygon with 128 corners.
+    // The rim of the original cylinder is a regular polygon with 128 corners. Each vertex of the new rim lies on a side
+    // of this polygon.
     let inner = libm::cos(std::f64::consts::PI / 128.0);
     for v in rim.into_iter().flat_map(|e| after.edge_vertices(e)) {
         let p = after.position(v);
@@ -228,7 +229,7 @@ fn curved_places_get_short_edges() {
     assert!((mean / 0.0547 - 1.0).abs() < 0.1, "{mean}");
     let distance = Distance::between(&mesh, &after, None).unwrap();
     assert!(distance.at_most() < 0.004, "{distance:?}");
-    // The mesh is a plane with a bump.
+    // This mesh is a flat square with a bump.
     let mut bump = square(80);
     for p in bump.positions_mut() {
         let r = (p.x - 0.5) * (p.x - 0.5) + (p.y - 0.5) * (p.y - 0.5);
@@ -275,7 +276,7 @@ fn an_error_is_never_exceeded() {
         );
         assert!(after.n_faces() < 16 * free.n_faces(), "{}", after.n_faces());
     }
-    // Without passes, nothing changes.
+    // If the number of passes is 0, the mesh does not change.
     let none = Options {
         passes: 0,
         error: Some(0.02),
@@ -407,7 +408,8 @@ fn a_boundary_with_a_zero_length_edge_is_remeshed() {
 
 #[test]
 fn an_edge_with_one_vertex_opposite_on_both_sides_is_not_split() {
-    // Two triangles back to back: a split would add two edges between the new vertex and the opposite one.
+    // Two triangles with the same three vertices lie back to back. A split would add two edges between the new vertex
+    // and the opposite vertex.
     let points = [DVec3::ZERO, DVec3::X, DVec3::Y].to_vec();
     let mesh = Mesh::from_polygons(points, &[[0, 1, 2], [0, 2, 1]]);
     let mesh = mesh.unwrap().0;
@@ -517,7 +519,7 @@ proptest! {
         };
         let after = remeshed(&mesh, &options).mesh;
         prop_assert!(after.n_faces() < 100_000);
-        // The result lies inside the bounding box of the original.
+        // The result lies inside the bounding box of the original mesh.
         if let (Some([min, max]), Some([low, high])) = (crate::bounds(&mesh), crate::bounds(&after)) {
             let slack = DVec3::splat(1e-12 * scale);
             prop_assert!((low + slack).cmpge(min).all() && (high - slack).cmple(max).all());
@@ -540,6 +542,6 @@ proptest! {
 
 #[test]
 fn the_diagonal_is_that_of_both_boxes() {
-    // The benchmarks give distances in units of this diagonal.
+    // The benchmarks divide distances by this diagonal.
     assert!((diagonal(&fine_cube(), &fine_cube()) - 12.0_f64.sqrt()).abs() < 1e-12);
 }

@@ -1,4 +1,4 @@
-//! Tests of attributes, tags and the lines between them.
+//! Tests that remeshing keeps attributes and tags, and the lines between regions with different values.
 
 use super::*;
 use crate::simplify::tests::middle;
@@ -20,7 +20,8 @@ pub(super) fn with_uv(mut mesh: Mesh, chart: impl Fn(DVec3) -> f64) -> Mesh {
 #[test]
 fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
     let chart = |p: DVec3| if p.x < 0.5 { 0.0 } else { 1.0 };
-    // The slit ends at y = 0.5. Above its end, the two sides have the same texture coordinates.
+    // In the texture, a slit runs along x = 0.5 from y = 0 to y = 0.5. Above y = 0.5, both sides have the same texture
+    // coordinates.
     let slit = |p: DVec3| {
         if p.x > 0.5 && p.y < 0.5 {
             0.5 - p.y

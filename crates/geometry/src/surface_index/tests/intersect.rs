@@ -1,4 +1,5 @@
-//! Compares intersections with exact arithmetic and with all pairs.
+//! Compares intersection tests of two triangles with exact arithmetic, and searches for intersecting pairs with tests
+//! of all pairs.
 
 use std::collections::BTreeSet;
 
@@ -95,7 +96,8 @@ fn triangles_on_a_small_lattice_intersect_as_in_rational_arithmetic() {
             [1.0, 1.0 / power_of_two(700), power_of_two(470), 0.1][(round / 12 % 4) as usize];
         let real = |t: [Int; 3]| t.map(|p| DVec3::from(p.map(|x| x as f64)) * scale);
         let (expected, found) = (intersect(&s, &t), triangles_intersect(&real(s), &real(t)));
-        // Multiples of 0.1 are rounded, so these points no longer lie on common lines.
+        // Multiples of 0.1 are rounded. Points on a common line are then no longer exactly on a line, so the exact
+        // results differ.
         if scale != 0.1 {
             assert_eq!(expected, found, "{s:?} {t:?} {scale}");
         }
@@ -116,13 +118,13 @@ fn neighbors_intersect_only_if_they_overlap_further() {
     let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let [o, x, y] = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let t = [o, x, y];
-    // The triangles have a common side. The second triangle lies on the other side of it, is folded up above the first
+    // The triangles have a common edge. The second triangle lies beyond this edge, is folded back just above the first
     // triangle, or overlaps the first triangle in the same plane.
     assert!(!triangles_intersect(&t, &[x, o, at(0.5, -1.0, 0.0)]));
     assert!(!triangles_intersect(&t, &[x, o, at(0.5, 0.1, 1e-300)]));
     assert!(triangles_intersect(&t, &[x, o, at(0.5, 0.1, 0.0)]));
-    // The triangles have a common corner. The second triangle lies beside the first one, passes through it, or has a
-    // side along a side of the first one.
+    // The triangles have a common corner. The second triangle meets the first triangle only there, passes through the
+    // first triangle, or has an edge that lies on an edge of the first triangle.
     assert!(!triangles_intersect(&t, &[o, -x, -y]));
     assert!(triangles_intersect(
         &t,
@@ -131,12 +133,12 @@ fn neighbors_intersect_only_if_they_overlap_further() {
     assert!(triangles_intersect(&t, &[o, at(0.5, 0.0, 0.0), -y]));
     // The triangles have the same three corners.
     assert!(triangles_intersect(&t, &[x, o, y]));
-    // The triangles meet only at a point: a corner of one lies on the other.
+    // The triangles meet at a single point: a corner of the second triangle lies inside the first triangle.
     assert!(triangles_intersect(
         &t,
         &[at(0.25, 0.25, 0.0), at(0.0, 0.0, 1.0), at(1.0, 0.0, 1.0)]
     ));
-    // One triangle has zero area.
+    // The second triangle has zero area.
     assert!(!triangles_intersect(
         &t,
         &[at(0.2, 0.2, 1.0), at(0.2, 0.2, -1.0), at(0.2, 0.2, 0.0)]

@@ -1,4 +1,4 @@
-//! Compares the index with brute force.
+//! Compares results of the index with tests of all triangles.
 
 mod intersect;
 mod oriented;
@@ -93,7 +93,7 @@ fn nearest_points_are_those_of_brute_force() {
     }
 }
 
-/// The tested radii include the radii at which the answer changes.
+/// The tested radii include one just below and one just above the distance to the nearest point.
 #[test]
 fn a_point_is_within_a_radius_if_the_nearest_point_is() {
     let mut random = Random(5);
@@ -186,7 +186,7 @@ fn a_dead_vertex_has_no_nearest_point() {
     assert!(found[0].is_none() && found[1].is_some());
 }
 
-/// Counts its calls and stops after a number of calls.
+/// A listener that counts its calls, and cancels after the allowed number of calls.
 struct Stop {
     allowed: usize,
     calls: std::sync::atomic::AtomicUsize,
@@ -199,7 +199,8 @@ impl Progress for Stop {
     }
 }
 
-/// The first face is flat and convex, so that it is halved. The second face is cut into monotone pieces.
+/// The face with one radius is flat and convex, so it is repeatedly cut in half. The face with two radii is cut into
+/// monotone polygons.
 #[test]
 fn the_index_of_a_face_with_many_corners_can_be_cancelled_at_any_call() {
     let n = 100_000_u32;

@@ -20,7 +20,7 @@ fn no_triangle_is_nearer_than_the_oriented_box_of_its_node() {
         let scale = [1.0, 1e-3, 1e6][round % 3];
         let away = 100.0 * random.point();
         let mut k = 0;
-        // The corners of each triangle lie near a line. Every fourth triangle has no area.
+        // The three corners of each triangle lie near a common line. Every fourth triangle has no area.
         let (mut start, mut direction) = (DVec3::ZERO, DVec3::ZERO);
         let mesh = soup(1 + 3 * round, || {
             if k % 3 == 0 {
@@ -49,7 +49,7 @@ fn no_triangle_is_nearer_than_the_oriented_box_of_its_node() {
     }
 }
 
-/// The number of visited nodes grows only with the depth of the tree.
+/// The number of nodes that a search visits grows only with the depth of the tree.
 #[test]
 fn searches_near_thin_triangles_visit_few_nodes() {
     let mut random = Random(8);

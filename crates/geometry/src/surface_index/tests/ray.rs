@@ -1,9 +1,9 @@
-//! Rays through soups, closed surfaces, edges and vertices.
+//! Tests of rays through unconnected triangles and closed surfaces, and through edges and vertices.
 
 use super::*;
 
-/// Returns where the ray meets a triangle, in plain arithmetic: Möller, Trumbore, "Fast, Minimum Storage Ray/Triangle
-/// Intersection", 1997.
+/// Returns where the ray meets a triangle, computed in floating-point arithmetic: Möller, Trumbore, "Fast, Minimum
+/// Storage Ray/Triangle Intersection", 1997.
 fn plain(origin: DVec3, d: DVec3, t: &[DVec3; 3]) -> Option<f64> {
     let (ab, ac, at) = (t[1] - t[0], t[2] - t[0], origin - t[0]);
     let normal = d.cross(ac);
@@ -96,7 +96,8 @@ fn rays_at_vertices_and_edges_of_closed_surfaces_pass_as_often_inward_as_outward
                 assert_eq!((inward, all % 2), (0, 0), "{origin} {target}");
                 n += all;
             }
-            // These rays run along the axes: in the planes of faces and through edges.
+            // These rays are parallel to the axes. They lie in the planes of faces, and pass through edges and
+            // vertices.
             for axis in DVec3::AXES {
                 for v in &vertices {
                     for direction in [axis, -axis] {
@@ -130,7 +131,7 @@ fn a_ray_without_direction_meets_nothing() {
         assert_eq!(index.ray(DVec3::ZERO, direction), None);
     }
     assert_eq!(index.ray(DVec3::NAN, DVec3::X), None);
-    // The surface is behind the origin of the ray, then at the origin.
+    // The first ray starts in front of the surface and points away from it. The second ray starts on the surface.
     assert_eq!(index.ray(DVec3::new(2.0, 0.0, 0.0), DVec3::X), None);
     assert_eq!(
         index.ray(DVec3::new(1.0, 0.3, 0.2), DVec3::X).unwrap().t,

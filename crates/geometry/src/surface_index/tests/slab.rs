@@ -62,7 +62,8 @@ fn far_points_visit_few_nodes_of_a_fine_mesh() {
         let mut random = Random(6);
         for _ in 0..200 {
             let direction = random.point().normalize();
-            // Points near the z axis are skipped: all points of a circle on the torus are almost equally near to them.
+            // Points near the z axis are skipped, because they have almost the same distance to all points of a circle
+            // on the torus.
             if direction.z.abs() < 0.9 {
                 *most = index.nearest(100.0 * direction, 0).visits.max(*most);
             }

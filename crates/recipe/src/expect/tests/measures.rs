@@ -105,7 +105,7 @@ fn valences_lie_in_a_range() {
 
 #[test]
 fn dihedral_angles_lie_in_a_range() {
-    // A strip along x that is first flat and then turns up by a right angle.
+    // The mesh is a strip along x. It is first flat, and then bends up by a right angle.
     let p = |x: f64, z: f64| [DVec3::new(x, 0.0, z), DVec3::new(x, 1.0, z)];
     let positions: Vec<DVec3> = [p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(2.0, 1.0)].concat();
     let stairs = scene([(

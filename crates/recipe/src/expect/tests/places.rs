@@ -149,7 +149,8 @@ fn vertices_with_an_unmatched_image_violate_a_symmetry() {
 
     let found = names(&scene, "SymmetricUnder(group: CubeRotations)");
 
-    // For every vertex, a rotation maps the vertex to the original position of the moved vertex.
+    // All 8 vertices are named, because each vertex is mapped by some rotation to the position that the moved vertex
+    // has left.
     assert_eq!(found.len(), 8);
 }
 
@@ -163,14 +164,14 @@ fn expectations_that_are_not_about_elements_have_no_places() {
     ] {
         assert!(places(&cube(), text).is_empty(), "{text}");
     }
-    // A refused selection has no elements.
+    // A selection that is refused selects no elements.
     let text = "Count(of: Edges(Between(0, 99)), eq: 1)";
     assert!(places(&cube(), text).is_empty());
 }
 
 #[test]
 fn stretched_and_overlapping_faces_are_named() {
-    // The second square has half the width of the first in the texture, and covers a part of it.
+    // In the texture, the second square has half the width of the first square, and overlaps the first square.
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)];
     let positions = positions.map(|(x, y)| at(f64::from(x), f64::from(y)));

@@ -1,4 +1,4 @@
-//! Tests of the expectations that compare with another mesh, with a digest, or with the mesh itself after motions.
+//! Tests of the expectations that compare a mesh with another mesh, with a digest, or with its own image under motions.
 
 use geometry::shapes;
 use mesh::{DVec3, Mesh};
@@ -218,7 +218,8 @@ fn a_diagonal_on_each_face_breaks_the_symmetry_of_faces_but_not_of_vertices() {
         found.parse::<u64>().unwrap()
     };
     let (rotations, motions) = (count("CubeRotations"), count("CubeMotions"));
-    // The remaining motions are a subgroup, so their number divides the number of motions of the group.
+    // The motions under which the mesh stays the same form a subgroup, so their number divides the number of all
+    // motions of the group.
     assert!(rotations < 24 && 24 % rotations == 0, "{rotations}");
     assert!(motions < 48 && 48 % motions == 0, "{motions}");
     assert_eq!(
@@ -235,7 +236,7 @@ fn a_vertex_that_moves_breaks_symmetries_unless_the_tolerance_allows_it() {
     let mut dented = shapes::cube();
     dented.positions_mut()[7] *= 0.99;
     let dented = scene([("dented", dented)]);
-    // The mesh stays the same only under the three rotations about the diagonal through the dent.
+    // Only three rotations map the mesh to itself: those about the diagonal through the moved vertex.
     assert_eq!(
         check(&dented, "SymmetricUnder(group: CubeRotations)"),
         Err("expected 24 symmetries, found 3".to_owned())

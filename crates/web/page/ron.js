@@ -7,8 +7,8 @@ const STRING = /"(?:[^"\\]|\\[^])*"?/y;
 const COMMENT = /\/\/[^\n]*|\/\*[^]*?(?:\*\/|$)/y;
 const SPACE = /\s+/y;
 
-/// Yields the tokens of a text that are not space: `{ kind, text, start, end }`. A kind is `word`, `number`, `string`,
-/// `comment`, or the character itself.
+/// Yields the tokens of a text that are not space: `{ kind, text, start, end }`. The kind is `word`, `number`, `string`
+/// or `comment`. For all other tokens, the kind is the character itself.
 export function* tokens(text) {
     let start = 0;
     const match = (pattern) => {
@@ -30,8 +30,9 @@ export function* tokens(text) {
 }
 
 /// Returns the brackets around a position, from the outside in: `{ open, name, start, field, index, fields }`. `name`
-/// is the name before a parenthesis, `field` the field that the position belongs to, `index` the number of the element,
-/// and `fields` has the names of all fields before the position. Returns `null` inside a string or a comment.
+/// is the name before a parenthesis, and `field` is the name of the field that contains the position. `index` is the
+/// index of the item that contains the position, starting at 0. `fields` has the names of all fields before the
+/// position. Returns `null` inside a string or a comment.
 export function around(text, position) {
     const stack = [{ open: "", name: null, start: 0, field: null, index: 0, fields: [] }];
     let before = null;
@@ -66,8 +67,8 @@ export function around(text, position) {
 }
 
 /// Returns where another step can be added to the list of steps. `end` is the position after the last step and its
-/// comma, `comma` says whether there is such a comma, and `empty` says whether the list has no steps. Returns `null` if
-/// the recipe has no list of steps.
+/// comma, `comma` says whether the last step has a comma, and `empty` says whether the list has no steps. Returns
+/// `null` if the recipe has no list of steps.
 export function endOfSteps(text) {
     let depth = 0;
     let before = [];
@@ -91,8 +92,8 @@ export function endOfSteps(text) {
 }
 
 /// Returns the places of the steps and the expectations of a recipe. `steps` has the start and the end of each step.
-/// `expect` has the start and the end of the field `expect`, including its comma. It is `null` if there is no such
-/// field.
+/// `expect` has the start and the end of the field `expect`, including its comma. `expect` is `null` if the recipe has
+/// no such field.
 export function outline(text) {
     const steps = [];
     let expect = null;
@@ -136,8 +137,8 @@ export function cut(text, count) {
     return removed.reduce((left, [start, end]) => left.slice(0, start) + left.slice(end), text);
 }
 
-/// Returns the index of the step at a position. This is the last step that starts before the position or on its line,
-/// if the step does not end before the position. Returns `null` if there is no such step.
+/// Returns the index of the step that contains a position. If no step contains the position, returns the index of the
+/// first step that starts after the position on the same line. Returns `null` if no step starts there.
 export function stepAt(text, position) {
     const { steps } = outline(text);
     const line = text.lastIndexOf("\n", position - 1) + 1;
@@ -148,8 +149,9 @@ export function stepAt(text, position) {
     return found ? steps.indexOf(found) : null;
 }
 
-/// Returns the operation of a step, `{ name, fields, next }`: `fields` has the tokens of the value of each field, and
-/// `next` says where another field can be written, and what comes before it. Returns `null` if the text is incomplete.
+/// Returns the operation of a step, as `{ name, fields, next }`. `fields` has the tokens of the value of each field.
+/// `next` says where another field can be written, and which text must come before this field. Returns `null` if the
+/// text is incomplete.
 export function written(text, [begin, finish]) {
     const all = [...tokens(text.slice(begin, finish))].filter(({ kind }) => kind !== "comment")
         .map((token) => ({ ...token, start: token.start + begin, end: token.end + begin }));

@@ -64,7 +64,7 @@ struct State {
     number: usize,
     /// The time of the last progress event.
     last_progress: Instant,
-    /// The first error while writing.
+    /// The first error that occurred while an event was written.
     problem: Option<io::Error>,
 }
 
@@ -99,8 +99,8 @@ impl<'a> Events<'a> {
         events
     }
 
-    /// Writes events for the problems and for the written files, and then the end event. `outcome` is `None` if the
-    /// recipe cannot run.
+    /// Writes events for the problems, for their pictures and for the written files, and then the end event. `outcome`
+    /// is `None` if the recipe cannot run.
     ///
     /// # Errors
     ///

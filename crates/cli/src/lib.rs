@@ -9,8 +9,8 @@
 //! }
 //! ```
 //!
-//! Exit codes: 0 success, 1 failure, 2 wrong usage, 130 interrupted by Ctrl-C (0 for `watch`). The exit code of `diff`
-//! is also 2 if it cannot compare the files because of an error.
+//! The exit code is 0 for success, 1 for failure, 2 for wrong usage, and 130 if Ctrl-C interrupted the command. If
+//! Ctrl-C ends `watch`, the exit code is 0. If `diff` cannot compare the files because of an error, its exit code is 2.
 
 mod args;
 mod cache;
@@ -53,9 +53,10 @@ pub fn run(registry: Registry) -> ExitCode {
     ExitCode::from(run_with(&registry, &arguments))
 }
 
-/// Returns the recipes that `meshwright test` runs if it is given these paths of recipes and folders. The result
-/// includes recipes that cannot be read. Recipes without expectations are left out. A recipe that was only found in a
-/// given folder is also left out if another given or found recipe calls it.
+/// Returns the recipes that `meshwright test PATHS` runs, where `paths` are the paths of recipes and folders. The
+/// result includes recipes that cannot be read. A recipe is left out if it has neither expectations nor a step with the
+/// field `refused`. A recipe in one of the folders is also left out if another of the recipes calls it and its own path
+/// is not in `paths`.
 ///
 /// # Errors
 ///
@@ -64,7 +65,8 @@ pub fn tested_recipes(registry: &Registry, paths: &[PathBuf]) -> Result<Vec<Path
     commands::test::tested(paths, &Engine::new(registry)).map_err(|error| format!("{error:#}"))
 }
 
-/// Returns the input files that `meshwright batch` processes if it is given these paths and patterns.
+/// Returns the input files that `meshwright batch --inputs PATTERNS` processes. A pattern can also be the path of a
+/// file.
 ///
 /// # Errors
 ///
@@ -120,7 +122,8 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
         Command::NewOp(args) => commands::new_op::run(&args, registry),
     };
     let result = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
-        // A panic because an array does not fit into memory is reported as an error, not as a bug in the program.
+        // If an array does not fit into memory, the code panics with `OutOfMemory`. This panic is reported as an error,
+        // not as a bug in the program.
         match payload.downcast::<mesh::OutOfMemory>() {
             Ok(missing) => Err(anyhow::Error::new(*missing)),
             Err(payload) => resume_unwind(payload),
@@ -146,7 +149,7 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
     }
 }
 
-/// Returns the exit code of a failure: 130 if Ctrl-C caused it, as shells expect, or else `code`.
+/// Returns the exit code of a failure. After Ctrl-C, this is 130, as shells expect. Otherwise, this is `code`.
 fn failure(code: u8) -> u8 {
     if is_interrupted() { 130 } else { code }
 }

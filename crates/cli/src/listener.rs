@@ -8,8 +8,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. A run that shows no progress,
-/// such as one of several simultaneous runs, has this flag as its listener.
+/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. A run that shows no progress
+/// uses this flag as its listener. For example, several simultaneous runs show no progress.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
 /// Installs the handler of Ctrl-C: the first Ctrl-C cancels the run cleanly, and the second Ctrl-C ends the program
@@ -48,7 +48,7 @@ impl<'a> Terminal<'a> {
         Self::until(&|| true)
     }
 
-    /// Creates a listener for work that ends on Ctrl-C or as soon as `go_on` returns false.
+    /// Creates a listener for work that Ctrl-C cancels. The work is also canceled as soon as `go_on` returns false.
     pub(crate) fn until(go_on: &'a (dyn Fn() -> bool + Sync)) -> Self {
         // The bar is drawn on standard error, and only if standard error is a terminal that can move its cursor.
         let bar = ProgressBar::new(0);
@@ -82,12 +82,14 @@ impl Progress for Terminal<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
         if !self.bar.is_hidden() {
             let step = lock(&self.step);
-            // The step and its task are one message, so that a step is never shown with the task of another step.
+            // The bar gets the step and its task as a single message, so that it never shows a step with the task of
+            // another step.
             let message = match step.as_str() {
                 "" => what.to_owned(),
                 step => format!("{step}: {what}"),
             };
-            // A new message means that a new task has begun. The remaining time is then estimated anew.
+            // If the message is new, a new task has begun. The bar is then reset, so that it estimates the remaining
+            // time of the new task.
             if self.bar.message() != message {
                 self.bar.set_message(message);
                 self.bar.reset();
@@ -118,7 +120,7 @@ mod tests {
 
     use super::*;
 
-    /// A terminal that keeps all the lines that are drawn.
+    /// A terminal that stores every line that the progress bar draws.
     #[derive(Debug, Default)]
     struct Lines(std::sync::Arc<Mutex<Vec<String>>>);
 

@@ -11,8 +11,8 @@ fn main() -> ExitCode {
     cli::run(ops_all::registry())
 }
 
-/// If `RUST_BACKTRACE` requests backtraces, sets a panic hook that prints backtraces. The standard library then prints
-/// none itself.
+/// If `RUST_BACKTRACE` requests backtraces, sets a panic hook that prints backtraces, and turns off the backtraces of
+/// the standard library.
 ///
 /// The standard library would print a backtrace even when memory runs out. To print a backtrace, the standard library
 /// takes a lock and allocates memory. If this allocation also failed, the program would wait for the lock forever.

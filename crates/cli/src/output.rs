@@ -105,8 +105,8 @@ fn summary(step: &RecipeStep, done: &StepDone) -> String {
     parts.join(", ")
 }
 
-/// Returns what the steps report, one item on each line: refused edits, losses (data that a step did not keep), changes
-/// of data that a file had, and notes.
+/// Returns the reports of the steps, one item on each line: refused edits, losses (data that a step did not keep),
+/// changes that a step made to the data of a file while it read the file, and notes.
 pub(crate) fn step_notes(steps: &[StepDone]) -> String {
     let mut text = String::new();
     for step in steps {
@@ -240,8 +240,8 @@ pub(crate) fn group_digits(n: u64) -> String {
     text
 }
 
-/// Returns a table with the origin of each parameter value, for the recipe and the recipes that it calls. After the
-/// table, the text lists the steps that have a field `note`.
+/// Returns a text for `--explain`. A table shows where the value of each parameter comes from, for the recipe and the
+/// recipes that it calls. After the table, the text lists the steps that have a field `note`.
 pub(crate) fn explain(recipe: &Recipe) -> String {
     let mut rows = vec![header_row(["parameter", "value", "from"])];
     for scope in &recipe.scopes {
@@ -270,8 +270,8 @@ fn explain_notes(recipe: &Recipe) -> String {
     if text.is_empty() { text } else { text + "\n" }
 }
 
-/// Lists each step, and says either why it ran or that its result was cached. The results that could not be stored in
-/// the cache or loaded from it follow the list.
+/// Lists the steps. For each step, the list says either that its result was cached, or why the step ran. After the
+/// list, the text names each result that could not be stored in the cache or loaded from the cache.
 pub(crate) fn explain_steps(outcome: &Outcome) -> String {
     let mut text = String::new();
     for (i, step) in outcome.steps.iter().enumerate() {

@@ -45,7 +45,7 @@ const MAX_PICTURES: usize = 20;
 /// The maximum size, in bytes, of the file of an expected image. A larger file is not drawn beside the actual image.
 const MAX_FILE_SIZE: u64 = 64 << 20;
 
-/// Draws the failures of a run, if this is requested, and keeps a list of the pictures.
+/// Draws the failures of a run if `--picture-errors` is given, and keeps a list of the pictures.
 #[derive(Default)]
 pub(crate) struct Pictures {
     /// The first part of the paths of all pictures, to which endings such as `-error-1.png` are appended. If `None`, no

@@ -1,5 +1,5 @@
-//! A store that records which files are read or looked for. The command `watch` uses it to find out which files a
-//! recipe reads.
+//! A file store that records which files are read or looked for. The command `watch` uses this store to find out which
+//! files a recipe reads.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -17,9 +17,9 @@ pub(crate) struct RecordingDisk(Mutex<Recorded>);
 
 #[derive(Debug, Default)]
 struct Recorded {
-    /// The paths as given.
+    /// The recorded paths, as the caller wrote them.
     given: BTreeSet<PathBuf>,
-    /// The same paths, in which the folder of each path is canonical: absolute, with all links resolved.
+    /// The recorded paths. The folder of each path is canonical: absolute, with all links resolved.
     real: BTreeSet<PathBuf>,
 }
 

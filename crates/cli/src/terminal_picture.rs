@@ -1,8 +1,9 @@
 //! Shows pictures in a terminal as pixels, as half-block characters or as letters. Of these three forms, the first one
 //! that the terminal supports is used.
 //!
-//! The abilities of the terminal are derived from environment variables. The program does not ask the terminal for its
-//! abilities. It would have to wait if the terminal does not answer, and could mistake typed keys for the answer.
+//! Environment variables tell which of these forms the terminal supports. The program does not send a query to the
+//! terminal, because it would have to wait if the terminal does not answer, and could mistake typed keys for the
+//! answer.
 //!
 //! - Kitty, "Terminal graphics protocol": a PNG file in chunks, in base64.
 //! - iTerm2, "Inline images protocol": a PNG file, in base64.
@@ -126,7 +127,7 @@ fn kitty(png: &[u8]) -> Vec<u8> {
 
 fn sixel(image: &Image) -> Vec<u8> {
     let mut palette = Palette::of(std::slice::from_ref(image));
-    // The parameter P2 = 1 of the Sixel protocol means that pixels that are not set keep their color.
+    // With the parameter P2 = 1 of the Sixel protocol, pixels that the picture does not set keep their color.
     let mut text = format!("\x1bP0;1;0q\"1;1;{};{}", image.width, image.height);
     for (i, color) in palette.colors().iter().enumerate() {
         // The components of a Sixel color are in percent.

@@ -25,8 +25,8 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     };
     let (scene, mut notes) = read_file_or_input(&args.input, &input, &options)?;
     if mesh_io::keeps_vertices(&output) {
-        // The reader has split non-manifold edges and vertices. Files of this format are nevertheless written with the
-        // original vertices, so the splits are not reported.
+        // The reader has split non-manifold edges and vertices. In this format, the file is written with the original
+        // vertices, so the user is not told about the splits.
         notes.retain(|note| !matches!(note.code, "edges-split" | "vertices-split"));
     }
     let human = args.format == Format::Human;

@@ -178,8 +178,8 @@ fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Converts a note to JSON. The field `text` names only some of the elements. The field `vertices`, `edges` or `faces`
-/// lists all of them.
+/// Converts a note to JSON. The field `text` names only some of the elements that the note is about. The field
+/// `vertices`, `edges` or `faces` lists all of these elements.
 pub(crate) fn note_json(note: &Note) -> serde_json::Value {
     let places = (note.places.iter()).map(|points| points.iter().map(DVec3::to_array).collect());
     let places: Vec<Vec<_>> = places.collect();

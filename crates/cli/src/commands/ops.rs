@@ -176,8 +176,8 @@ fn described(schema: &Json, summary: &str) -> String {
         "\nParameters:\n"
     };
     text.extend(fields.iter().map(|field| field_text(field, "  ")));
-    // If the type of a parameter has only variants, the parameter's own text lists these variants. A type with fields
-    // is listed separately below.
+    // If a type has no fields but only variants, the text of the parameter already lists the variants. The loop below
+    // adds the types that have fields.
     let is_shown = |t: &TypeDoc| t.fields.is_empty() && fields.iter().any(|f| f.kind == t.name);
     let types = types(schema);
     for t in types.iter().filter(|t| !t.is_selection() && !is_shown(t)) {

@@ -129,7 +129,7 @@ mod tests {
         let twice = names.windows(2).filter(|pair| pair[0] == pair[1]);
         let twice: Vec<&str> = twice.map(|pair| pair[0]).collect();
         assert_eq!(twice, [""; 0]);
-        // A name with a number at its end, such as `Side2`, means that one operation uses two types with this name.
+        // If one operation uses two types with the name `Side`, the second type gets the name `Side2`.
         let numbered = names
             .iter()
             .find(|name| name.ends_with('2') || name.ends_with('3'));

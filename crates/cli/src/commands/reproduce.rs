@@ -25,7 +25,7 @@ pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool>
         expect_kind(file, FileKind::Mesh)?;
         let stamp = mesh_io::provenance(&Disk, file)?.and_then(|text| Stamp::parse(&text));
         let (source, run) = recipe_of(file, stamp.as_ref(), args, engine)?;
-        // If consecutive files come from the same run, that run is repeated only once.
+        // If the same run wrote several consecutive files, the run is repeated only once for all of them.
         let rerun = match last.take() {
             Some(rerun) if rerun.is_of(&source, &run) => rerun,
             _ => Rerun::run(source, run, args.budget, engine)?,
@@ -36,8 +36,9 @@ pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool>
     Ok(all_equal)
 }
 
-/// Finds the recipe that wrote a file. If no recipe has the recorded digest, uses the recipe with the recorded file
-/// name. Returns the text of the recipe, and the recorded parameters and inputs.
+/// Finds the recipe that wrote a file, unless `--recipe` names the recipe. If no recipe has the recorded digest, uses
+/// the recipe with the recorded file name. Returns the text of the recipe, and the parameters and inputs that the file
+/// records.
 fn recipe_of(
     file: &Path,
     stamp: Option<&Stamp>,
@@ -159,7 +160,7 @@ impl Rerun {
         self.source == *source && self.run == *run
     }
 
-    /// Prints whether the run has written a file with the same bytes as `file`, and returns the answer.
+    /// Returns whether the run has written a file with the same bytes as `file`, and prints a message that says so.
     fn compare(&self, file: &Path, stamp: Option<&Stamp>) -> anyhow::Result<bool> {
         let (shown, recipe) = (file.display(), &self.loaded.path);
         let bytes = fs::read(file).with_context(|| format!("cannot read {shown}"))?;
@@ -194,8 +195,8 @@ impl Rerun {
         Ok(false)
     }
 
-    /// Returns possible reasons why the new file differs: the inputs and other data that have changed since the old
-    /// file was written.
+    /// Returns possible reasons why the second run wrote a different file, such as inputs that have changed since the
+    /// first run.
     fn reasons(&self, stamp: Option<&Stamp>) -> Vec<String> {
         let Some(stamp) = stamp else {
             return vec!["the file does not record which recipe wrote it".to_owned()];

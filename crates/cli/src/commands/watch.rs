@@ -1,10 +1,11 @@
 //! `meshwright watch`: runs a recipe again whenever the recipe, a recipe that it calls, or one of its inputs is saved.
 //!
 //! The program does not watch the files themselves but their folders, because many text editors replace a file when
-//! they save it. Changes of other files in the watched folders, and of files that the run itself writes, are ignored.
-//! The cache compares contents. Therefore, a step whose inputs did not change is not run again. If an unchanged file is
-//! saved, no results are printed. If a file is saved during a run, the run is canceled and the next run starts. Ctrl-C
-//! cancels the current run, if any, and ends the program with exit code 0.
+//! they save it. The program ignores changes of files that the recipe does not read or that the run itself writes. The
+//! cache compares the contents of files. Therefore, a step whose inputs did not change is not run again. If a file is
+//! saved without a change, and the cache has the results of all steps, no results are printed. If a file is saved
+//! during a run, the run is canceled and the next run starts. Ctrl-C cancels the current run, if any, and ends the
+//! program with exit code 0.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -50,7 +51,8 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
         match load_to_run(args, engine) {
             Ok(loaded) => {
                 for folder in folders(&loaded) {
-                    // Errors are ignored: if the folder is missing, the check of the recipe has already reported this.
+                    // The error is ignored: if a folder does not exist, the check of the recipe has already reported
+                    // the missing file.
                     let _ = changes.follow(&folder);
                 }
                 changes.ignore(&loaded.forecast.outputs);
@@ -212,7 +214,7 @@ impl FolderWatcher {
         lock(&self.pending).take()
     }
 
-    /// Returns the file that has changed, if the recipe reads it and does not write it.
+    /// Returns the first changed file of the event that the recipe reads and does not write, if any.
     fn changed_file(&self, event: notify::Result<notify::Event>) -> Option<PathBuf> {
         let event = event.ok()?;
         if event.kind.is_access() {

@@ -80,8 +80,8 @@ pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
 fn memory(forecast: &Forecast, budget: u64) -> u64 {
     let steps = forecast.steps.windows(2);
     let smaller = steps.map(|pair| pair[0].bytes.max.min(pair[1].bytes.max));
-    // Two consecutive steps are skipped if the memory of both has no known upper limit. In this case, the estimate of
-    // `peak_bytes` already includes an edited copy of the meshes.
+    // If two consecutive steps have no upper limit for their memory, the pair is skipped. In this case, `peak_bytes`
+    // already includes an edited copy of the meshes.
     let copy = smaller.filter(|&bytes| bytes < u64::MAX).max();
     forecast.peak_bytes().min(budget) + copy.unwrap_or(0).min(budget)
 }

@@ -156,7 +156,7 @@ impl FileResult {
     }
 }
 
-/// Input files for which the recipe is checked and then run.
+/// At most [`CHECKED_AHEAD`] input files. The recipe is checked for all of these files before the first run starts.
 struct Chunk<'b> {
     batch: &'b Batch<'b>,
     files: &'b [&'b Input],
@@ -258,7 +258,7 @@ impl<'b> Chunk<'b> {
         }
     }
 
-    /// Returns the result of an input file, given how its job ended.
+    /// Returns the result of an input file. `end` says how the job for this file ended.
     fn result(&self, i: usize, end: JobEnd<FileResult>) -> FileResult {
         many::job_result(end).unwrap_or_else(|panicked| match &self.tasks[i] {
             Task::Keep(row) => FileResult::unrecorded(row.clone()),
@@ -332,8 +332,8 @@ fn failure(file: &Input, message: String) -> FileResult {
     }
 }
 
-/// Returns the result of a file whose job ended without a result. `panicked` has the message if the job panicked, and
-/// is `None` if the job was not started.
+/// Returns a result for a file whose job panicked or was not started. `panicked` is the message of the panic, or `None`
+/// if the job was not started.
 fn without_result(file: &Input, panicked: Option<String>) -> FileResult {
     match panicked {
         Some(message) => failure(file, message),

@@ -33,8 +33,8 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Reads the recipe, lists the input files, and checks that no output would overwrite an input file or the output
-    /// of a run on another input file. If the text of the recipe has errors, prints them and returns `None`.
+    /// Reads the recipe, lists the input files, and checks that no run would overwrite an input file or an output of
+    /// another run. If the text of the recipe has errors, prints them and returns `None`.
     pub(super) fn plan(
         args: &'a BatchArgs,
         engine: &'a Engine<'a>,
@@ -83,13 +83,11 @@ impl<'a> Batch<'a> {
         Ok(Some(batch))
     }
 
-    /// Fails if the runs on two input files would write to the same path, or if an output would overwrite an input
-    /// file.
+    /// Fails if two runs of the batch would write to the same path, or if a run would overwrite an input file.
     ///
-    /// In this recipe and in the recipes that it calls, an output path depends on the input file only through
-    /// placeholders. So the recipe is checked only once for each parameter set, with a marker in place of the name of
-    /// the input file. For each input file, the marker in the resulting output paths is then replaced by the name of
-    /// the file.
+    /// An output path depends on the input file only if it contains a placeholder such as `{model.stem}`. So the recipe
+    /// is checked only once for each parameter set, with a marker as the name of the input file. For each input file,
+    /// the marker in the output paths is then replaced by the name of the file.
     fn check_outputs(&self) -> anyhow::Result<()> {
         let [stem, name] = ["\u{1}", "\u{1}.\u{2}"];
         let below = |path: &PathBuf| path.strip_prefix(&self.args.out).unwrap_or(path).to_owned();
@@ -192,8 +190,8 @@ impl<'a> Batch<'a> {
     /// recipe reads cannot be read.
     pub(super) fn key(&self, file: &Input, loaded: &Loaded) -> Option<String> {
         let mut hasher = blake3::Hasher::new();
-        // The length of each hashed piece of data is also hashed, so that different lists of pieces have different
-        // digests.
+        // Before each string, its length is hashed. Otherwise, the lists `["ab", "c"]` and `["a", "bc"]` would have the
+        // same digest.
         let mut part = |bytes: &[u8]| {
             hasher.update(&(bytes.len() as u64).to_le_bytes());
             hasher.update(bytes);
@@ -233,7 +231,7 @@ impl<'a> Batch<'a> {
         Some(hasher.finalize().to_hex()[..32].to_owned())
     }
 
-    /// Removes the temporary output folders of earlier processes that were killed.
+    /// Removes the temporary output folders that earlier, killed processes of this batch have left.
     pub(super) fn remove_stale(&self, processes: &[u32]) {
         if processes.is_empty() {
             return;
@@ -254,7 +252,7 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// Returns the header of the report, in which the counts of rows are still zero.
+    /// Returns the header of the report. The header does not count the rows yet.
     pub(super) fn header(&self) -> Header {
         let mut listed = blake3::Hasher::new();
         for file in &self.inputs {

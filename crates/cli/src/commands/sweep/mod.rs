@@ -141,7 +141,7 @@ struct Plan {
     source: Source,
     /// The text of the recipe.
     recipe: Source,
-    /// The recipe, in which all parameters have their default values.
+    /// The recipe as loaded with the default values of all parameters.
     loaded: Loaded,
     grid: Grid,
 }
@@ -210,7 +210,7 @@ impl Plan {
     }
 }
 
-/// Checks that the files with which the scenes of cells are compared exist.
+/// Checks that each mesh file exists with which an entry of `keep`, such as `DistanceTo`, compares the scenes.
 fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
     for (metric, span) in &sweep.keep {
         if let Some(OtherMesh::File(path)) = Metric::other(metric) {

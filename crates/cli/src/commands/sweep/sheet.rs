@@ -130,8 +130,8 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
-    /// Takes the scene of a cell. `bytes` is the estimated peak memory of the cell's run. Keeps the scene if the memory
-    /// budget for scenes is large enough.
+    /// Measures the extent of a cell's scene, and keeps the scene if the memory budget for scenes is large enough.
+    /// `bytes` is the estimated peak memory of the cell's run.
     pub(super) fn collect(&self, scene: Scene, bytes: u64) -> CellScene {
         let check = check_names(&self.args.draw.on, &[&scene]);
         let extent = check.map_err(|e| e.to_string()).and_then(|()| {
@@ -283,8 +283,8 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     Ok(wide)
 }
 
-/// Returns the part of the memory budget that is reserved for scenes that are kept until they are drawn. Runs use the
-/// rest.
+/// Returns the part of the memory budget that is reserved for scenes that wait to be drawn. The runs of the cells use
+/// the rest of the budget.
 pub(super) fn kept_bytes(budget: u64) -> u64 {
     budget / 4
 }
@@ -331,8 +331,8 @@ impl Layout {
         Headings { columns, rows }
     }
 
-    /// Returns the text below the image of a cell. The text has the parameter values, unless these are the labels of
-    /// rows and columns. The text also has as many of the measured values that `keep` lists as fit. Measured times are
+    /// Returns the text below the image of a cell. The text has the parameter values, unless the rows and columns have
+    /// them as labels. If there is space, the text also has the measured values that `keep` lists. Measured times are
     /// left out, because they differ from run to run.
     fn caption(&self, plan: &Plan, cell: usize, result: &CellResult, width: u32) -> String {
         let style = SheetStyle::default();

@@ -1,7 +1,7 @@
 //! `meshwright test`: runs recipes as tests, several of them at the same time.
 //!
-//! Prints a line for each recipe, sorted by path, and then a summary. If the option `--format json` is given, prints
-//! one JSON object:
+//! Prints a line for each recipe, in the order of the given paths, and then a summary. The recipes of a folder are
+//! sorted by name. If the option `--format json` is given, prints one JSON object:
 //!
 //! ```text
 //! {
@@ -385,7 +385,7 @@ struct TestResult {
     state: State,
     /// The number of expectations that were checked.
     expectations: usize,
-    /// The digest of the final scene, if the recipe was run.
+    /// The digest of the final scene, if the recipe was run and the run was not canceled.
     digest: Option<String>,
     time: Duration,
     /// The changes that `--update` made. Each change is described in one line.

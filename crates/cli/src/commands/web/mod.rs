@@ -69,12 +69,11 @@ fn accept(listener: &TcpListener, folder: &Arc<Path>) {
     loop {
         let accepted = listener.accept().and_then(|(stream, _)| {
             let folder = folder.clone();
-            // Errors are ignored. The usual error is that the browser has closed the connection.
+            // An error while answering is ignored. Usually, the browser has closed the connection.
             Builder::new().spawn(move || _ = answer(&stream, &folder))
         });
         if accepted.is_err() {
-            // The error means that there are too many connections or threads. Some of them can end before the next
-            // attempt.
+            // There are too many connections or threads. While this thread sleeps, some of them can end.
             sleep(POLL_INTERVAL);
         }
     }

@@ -51,7 +51,7 @@ impl Request {
             let Ok(line) = String::from_utf8(line) else {
                 return Ok(None);
             };
-            // If the line has no line break, the stream has ended, or the request is too long.
+            // A line without a line break means that the stream has ended or that the request is too long.
             let Some(line) = line.strip_suffix('\n') else {
                 return Ok(None);
             };

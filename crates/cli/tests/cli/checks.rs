@@ -47,8 +47,8 @@ fn numbers_of_elements_that_do_not_exist() {
         "Cube(), Picture(path: \"a.png\", highlight: Faces([6]))",
         &["face 6 does not exist"],
     );
-    // If several meshes lack the element, the first of these meshes is reported. `on:` chooses the meshes that are
-    // checked.
+    // If several meshes lack the face 6, the error message is about the first of these meshes. `on:` chooses the meshes
+    // that are checked.
     let two = "Cube(), Torus(name: \"t\")";
     refuses(
         &folder,
@@ -59,7 +59,7 @@ fn numbers_of_elements_that_do_not_exist() {
         &folder,
         &format!("{two}, (run: PokeFaces(faces: Faces([6])), on: [\"t\"])"),
     );
-    // Elements that an earlier step creates are counted.
+    // The face 23 exists, because the first `PokeFaces` creates it.
     accepts(
         &folder,
         "Cube(), PokeFaces(), PokeFaces(faces: Faces([23]))",

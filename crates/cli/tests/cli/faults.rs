@@ -1,4 +1,4 @@
-//! Runs under bad conditions: without free file descriptors, and killed while running.
+//! Runs recipes under bad conditions: without free file descriptors, or until the run is killed.
 #![cfg(unix)]
 
 use std::process::{Command, Stdio};
@@ -40,7 +40,7 @@ fn a_run_without_free_file_descriptors_ends_with_a_sentence_and_leaves_nothing()
                 succeeded += 1;
                 assert!(outputs(&folder) == new, "{descriptors} descriptors");
             }
-            // The dynamic linker cannot open the program's libraries.
+            // 127 means that the dynamic linker could not open the program's libraries.
             Some(127) => {}
             _ => {
                 let ended = ended.with_code(1);

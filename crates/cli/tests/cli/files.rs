@@ -167,7 +167,7 @@ fn a_conversion_changes_no_face_and_no_vertex() {
         let lines = lines.join("\n") + "\n";
         assert_eq!(lines, UNCLEAN, "{to}");
     }
-    // Repairs are made on request, and the output names them.
+    // With `--orientation Orient`, faces are reversed, and the output reports these repairs.
     let ended = folder
         .run("convert a.obj c.obj --orientation Orient")
         .with_code(0);
@@ -310,7 +310,7 @@ fn a_rigged_character_is_converted_and_subdivided() {
     assert_eq!(json["objects"][0]["joints"], 2);
     assert_eq!(json["objects"][0]["morph_targets"], 1);
     assert_eq!(json["objects"][0]["faces"], 16);
-    // For other formats, `check` lists the losses before the run.
+    // An OBJ file cannot store the skin. `check` reports this loss without running the recipe.
     let checked = folder.run("check lost.ron").with_code(1);
     assert!(
         checked.stderr.contains("`on_loss` does not allow it"),
@@ -318,7 +318,7 @@ fn a_rigged_character_is_converted_and_subdivided() {
     );
 }
 
-/// Two triangles. The node of the first one is turned and animated.
+/// Two triangles, each with a node. The node of the first triangle is rotated and animated.
 const CAR: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], 
     "nodes": [{"name": "wheel", "mesh": 0, "rotation": [0, 0, 0.24740395925452294, 0.9689124217106447]}, {"name": "body", "mesh": 1}], 
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}, {"primitives": [{"attributes": {"POSITION": 0}}]}], 
@@ -349,7 +349,7 @@ fn check_knows_what_becomes_of_nodes_and_animations() {
             "shear.ron",
             recipe("still.gltf", "Transform(scale: (1, 2, 1))"),
         )
-        // The animated node gets a parent, which is scaled instead.
+        // `Transform` does not scale the animated node, but adds a parent to this node and scales the parent.
         .with(
             "parent.ron",
             recipe("car.gltf", "Transform(scale: (1, 2, 1))"),

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::folder::{Folder, PROGRAM, names};
 
-/// Interrupts a long run, some time after it started.
+/// Starts a long run and interrupts it after the time `wait`. Checks that the run ends quickly and leaves no files.
 #[track_caller]
 fn interrupted_after(wait: Duration, out: &str) {
     let folder = Folder::with_recipe(

@@ -1,4 +1,4 @@
-//! The chapter about jobs: every command in it is run.
+//! Runs every command in the book's chapter about jobs.
 
 #![cfg(unix)]
 
@@ -16,7 +16,7 @@ fn chapter() -> String {
     fs::read_to_string(path).unwrap()
 }
 
-/// The first code block of this kind in a text.
+/// Returns the content of the first code block in a text that starts with three backticks and `kind`.
 fn block<'t>(text: &'t str, kind: &str) -> Option<&'t str> {
     let (_, block) = text.split_once(&format!("```{kind}\n"))?;
     Some(block.split_once("```").unwrap().0)

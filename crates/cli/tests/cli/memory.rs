@@ -1,4 +1,4 @@
-//! Runs with little memory: every run ends, for any memory limit.
+//! Runs recipes with different memory limits. Every run must end, either with success or with an error message.
 #![cfg(target_os = "linux")]
 
 use crate::folder::Folder;
@@ -22,8 +22,9 @@ fn every_run_ends_under_a_limit_of_memory() {
             assert!(!ended.stderr.contains("internal error"), "{what}");
             match ended.code {
                 Some(0) => succeeded += 1,
-                // 127: the program cannot be loaded. None (killed by a signal) and 134: an allocation outside of the
-                // large arrays failed.
+                // 127 means that the system could not load the program. 134 and `None` (killed by a signal) mean that a
+                // small allocation failed: only failed allocations of large arrays are reported as errors with exit
+                // code 1.
                 Some(1 | 127 | 134) | None => {
                     refused += 1;
                     let sentence = ["memory", "Resource temporarily unavailable", "cannot"];
@@ -33,7 +34,7 @@ fn every_run_ends_under_a_limit_of_memory() {
                         None
                     );
                 }
-                // 137: the program was killed because it did not end.
+                // 137 means that `timeout` killed the program because it did not end.
                 _ => panic!("{what}"),
             }
         }

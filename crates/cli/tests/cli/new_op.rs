@@ -138,7 +138,8 @@ fn a_new_crate_is_a_program_with_its_operation() {
             "next: cd ./inflate_faces && cargo test && cargo run -- run picture.ron\n",
         ]);
     let krate = folder.path("inflate_faces");
-    // The test uses the same versions as the workspace, so that no crate has to be downloaded.
+    // The new crate gets the lock file of the workspace. It then uses the same versions of all dependencies, so that
+    // none of them has to be downloaded.
     fs::copy(root.join("Cargo.lock"), krate.join("Cargo.lock")).unwrap();
     cargo(&krate, "test --offline --quiet");
     cargo(&krate, "build --offline --quiet");
@@ -166,7 +167,7 @@ fn a_new_crate_is_a_program_with_its_operation() {
     for picture in ["before.png", "after.png"] {
         assert!(krate.join("out").join(picture).is_file(), "{picture}");
     }
-    // The help and the schema are generated from the same definition.
+    // The help, the schema and the example are generated from the source of the new operation.
     let help = run("ops InflateFaces");
     assert!(
         help.contains("The distance along each axis, in scene units"),
@@ -200,7 +201,7 @@ fn an_operation_is_added_to_the_lists_of_its_group() {
     ));
 }
 
-/// The path and bytes of every file.
+/// Returns the path and the bytes of each file in a folder and its subfolders, sorted by path.
 fn content(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -231,7 +232,8 @@ fn a_second_operation_with_the_same_name_is_refused_and_changes_no_files() {
         assert_eq!(again.stderr, format!("error: {path} already exists\n"));
         assert_eq!(content(&folder.path(".")), before);
     }
-    // In another group, the operation is refused too, because the picture of the first operation has the same name.
+    // An operation with the same name is also refused in another group, because both operations would have the same
+    // recipe for their pictures.
     let folder = folder.with("ops/edges/src/lib.rs", GROUP);
     folder
         .run("new-op InflateFaces --in edges")

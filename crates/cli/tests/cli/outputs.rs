@@ -61,7 +61,8 @@ fn missing_reference_files_are_reported_and_written_by_update() {
     assert_eq!(folder.entries("goldens"), ["flat.obj", "sheet.png"]);
     assert_eq!(folder.read("recipe.ron"), RECIPE.as_bytes());
 
-    // Now the expectation is met, with and without the cache, and no reference file is rewritten.
+    // After the update, the expectations are met, with and without the cache. A second update rewrites no reference
+    // file.
     for command in [
         "test recipe.ron",
         "test recipe.ron --no-cache",
@@ -81,7 +82,7 @@ fn one_different_pixel_fails_unless_tolerated() {
     let folder = recorded();
     change_a_pixel(&folder, "goldens/sheet.png", 41, 4);
     let message = "expected \"a/sheet.png\" to match goldens/sheet.png: 1 of 1200 pixels differs, by 4 of 255, at (1, 1)";
-    // The result is the same if the step that writes the picture comes from the cache.
+    // The message is the same if the result of the step that writes the picture is taken from the cache.
     for command in [
         "test recipe.ron",
         "test recipe.ron --no-cache",
@@ -127,8 +128,8 @@ fn provenance_is_not_compared_but_contents_are() {
 )"#;
     let folder = Folder::with_recipe(recipe).with("a.bzc", "3\n0 0\n1 2\n2 0\n");
     folder.run("test recipe.ron --update").with_code(0);
-    // The second run has the same result, but its files record the parameter that was set, so the bytes of the files
-    // differ.
+    // The second run computes the same scene. However, its files record that the parameter `size` was set, so their
+    // bytes differ from those of the first run.
     folder.run("run recipe.ron --set size=1").with_code(0);
     for name in ["a.svg", "b.mws", "c.gif"] {
         let out = folder.read(&format!("out/{name}"));
@@ -205,7 +206,7 @@ fn paths_that_lead_out_and_files_that_no_step_writes_are_refused() {
         }
         assert_eq!(folder.entries("."), ["recipe.ron"]);
     }
-    // The expectation is checked before the step that writes the picture.
+    // Here, the expectation is checked after the step `grid`, which runs before the step that writes the picture.
     let grid = "Grid(name: \"sheet\", columns: 3, rows: 1)";
     let early = RECIPE
         .replace(grid, &format!("(id: \"grid\", run: {grid})"))
@@ -245,7 +246,7 @@ fn an_output_can_be_expected_to_differ() {
         .complains(&["not to hold, but it does"]);
     change_a_pixel(&folder, "goldens/sheet.png", 0, 1);
     folder.run("test recipe.ron").with_code(0);
-    // If the files cannot be compared, `Not` also fails.
+    // If the files cannot be compared, the expectation `Not(Output(..))` also fails.
     std::fs::remove_file(folder.path("goldens/sheet.png")).unwrap();
     folder
         .run("test recipe.ron --update")

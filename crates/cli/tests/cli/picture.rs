@@ -52,7 +52,7 @@ fn a_step_is_shown_before_and_after() {
         .with_code(0);
     let (width, height) = size(&folder, "r.png");
     assert!(width >= 80 && height > 30, "{width} {height}");
-    // The pictures of the recipe itself are not written.
+    // `meshwright picture` does not write the pictures of the recipe's own `Picture` steps.
     assert!(!folder.path("out/made.png").exists());
     folder.run("run r.ron").with_code(0);
     assert_eq!(size(&folder, "out/made.png"), (16, 12));
@@ -122,7 +122,8 @@ fn invalid_options_are_reported_like_those_of_a_step() {
         (&["--on", "cub"], "unknown object \"cub\""),
     ] {
         let arguments = [&["picture", "cube.obj", "--size", "8x8"], arguments].concat();
-        // `--size` cannot be given twice.
+        // The default arguments contain `--size`, which cannot be given twice. Therefore, this case replaces the
+        // default size.
         let arguments: Vec<&str> = match arguments[4] {
             "--size" => vec!["picture", "cube.obj", "--size", "0x10"],
             _ => arguments,
@@ -266,7 +267,7 @@ fn paths_on_the_command_line_are_relative_to_the_working_directory() {
         let arguments = ["picture", "models/a.obj", "--size", "40x30"];
         folder.run_all(&[&arguments, more].concat()).with_code(0)
     };
-    // The image is not beside the file, but in the folder given by --images.
+    // The texture image is not in the folder of the model, but in the folder that --images names.
     let missing = picture(&[]);
     assert!(
         missing.stderr.contains("wood.png: not found"),
@@ -279,7 +280,8 @@ fn paths_on_the_command_line_are_relative_to_the_working_directory() {
         let found = picture(more);
         assert_eq!(found.stderr, "", "{more:?}");
     }
-    // The path of `DistanceTo` is relative to the working directory; images are still searched beside the file.
+    // The path in `DistanceTo` is relative to the working directory. The program still searches for texture images in
+    // the folder of the model.
     let folder = folder.with("models/wood.png", &png);
     for of in [
         "DistanceTo(\"cube.obj\")",
@@ -326,9 +328,10 @@ fn an_unexpected_picture_is_drawn_beside_the_expected_one() {
         .with_code(1)
         .complains(&["pixels differ", "see r-error-1.png: "]);
 
-    // Three images in a row, with a gap of 12 pixels around each.
+    // The picture of the failure shows three images in a row. Gaps of 12 pixels are between the images and at both
+    // sides.
     assert_eq!(size(&folder, "r-error-1.png").0, 3 * 60 + 4 * 12);
-    // If the reference file is not a picture, the scene is drawn instead.
+    // If the reference file is not a PNG file, the picture of the failure shows the scene.
     let folder = folder.with("golden.png", "no picture");
     folder.run("test r.ron --picture-errors").with_code(1);
     assert!(size(&folder, "r-error-1.png").0 > 700);

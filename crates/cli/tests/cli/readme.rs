@@ -10,14 +10,14 @@ fn repository(path: &str) -> String {
     fs::read_to_string(root.join(path)).unwrap()
 }
 
-/// The code blocks of this kind.
+/// Returns the contents of all code blocks that start with three backticks and `kind`.
 fn blocks<'t>(text: &'t str, kind: &str) -> Vec<&'t str> {
     let opening = format!("```{kind}\n");
     let ends = |block: &'t str| block.split_once("```").unwrap().0;
     text.split(&opening).skip(1).map(ends).collect()
 }
 
-/// The lines with all spaces reduced to single spaces, and without the column of times.
+/// Returns the lines of a text without the column of times. Each sequence of spaces is replaced by a single space.
 fn without_times(text: &str) -> Vec<String> {
     let words = |line: &str| {
         line.split_whitespace()

@@ -33,7 +33,8 @@ fn every_output_of_a_run_is_reproduced() {
             "out/deep/a.glb is reproduced",
             "out/a.off is reproduced",
         ]);
-    // The stamp in an STL file has no room for the name of the preset.
+    // An STL file has no room for the name of the preset. Therefore, `reproduce` runs the recipe without the preset,
+    // and the result differs.
     folder.run("reproduce out/a.stl").with_code(1);
     folder.run("run scenes/r.ron").with_code(0);
     folder

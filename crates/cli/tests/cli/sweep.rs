@@ -32,7 +32,7 @@ fn json(ended: &Ended) -> Json {
     ended.json()
 }
 
-/// The values of one measure in all cells.
+/// Returns the values of one measure, one for each cell.
 fn measure(table: &Json, name: &str) -> Vec<Json> {
     let cells = table["cells"].as_array().unwrap();
     cells
@@ -89,7 +89,8 @@ fn measures_are_those_of_a_run() {
     assert_eq!(measure(&table, "Digest")[1], run.digest());
     let facts = folder.run("info out/torus.obj --format json").json();
     assert_eq!(measure(&table, "Area")[1], facts["objects"][0]["area"]);
-    // The reference is the output of the first cell, and differs from the second.
+    // `DistanceTo` compares each cell with the output of the first cell. Therefore, only the second cell has a distance
+    // greater than 0.
     let distances = measure(&table, "DistanceTo(other: File(\"kept/1/torus.obj\"))");
     assert!(distances[0].as_f64().unwrap() < 1e-12, "{distances:?}");
     assert!(distances[1].as_f64().unwrap() > 1e-3, "{distances:?}");

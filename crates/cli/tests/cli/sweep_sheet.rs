@@ -25,13 +25,14 @@ fn sheet(folder: &Folder, more: &str) -> Ended {
     ))
 }
 
-/// The pixels of a cell of 90 x 40 pixels. Rows are `row` pixels high; the cells begin at `start`.
+/// Returns the pixels of the cell in column `i` and row `j` of a sheet. A cell has 90 x 40 pixels. A row is `row`
+/// pixels high, including the caption. The grid of cells starts at the pixel `start`.
 fn cell(sheet: &Pixels, start: [u32; 2], row: u32, [i, j]: [u32; 2]) -> Pixels {
     let (left, top) = (start[0] + 12 + i * 102, start[1] + 12 + j * (row + 12));
     sheet.part([left, top], [90, 40])
 }
 
-/// Pixels that are not white.
+/// Counts the pixels that are not white.
 fn drawn(pixels: &Pixels) -> usize {
     pixels.count(|p| p != [255; 3])
 }
@@ -67,7 +68,8 @@ fn two_parameters_label_rows_and_columns() {
     );
     sheet(&folder, "").with_code(0);
     let made = pixels(&folder, "s.png");
-    // Columns are labeled by the last parameter and rows by the first; the values of `keep` are below each cell.
+    // The labels of the columns are values of the last parameter, `around`. The labels of the rows are values of the
+    // first parameter, `minor`. Below each cell are its measured values, which `keep` lists.
     let [width, height] = made.size;
     let beside = width - (12 + 3 * 102);
     assert!((40..=102).contains(&beside), "{beside}");
@@ -82,7 +84,7 @@ fn two_parameters_label_rows_and_columns() {
             assert!(drawn(&cell(&made, start, 68, [i, j])) > 100, "{i} {j}");
         }
     }
-    // Cells of one column have the same number of faces, and so the same caption.
+    // Cells in the same column have the same number of faces. Therefore, they have the same caption.
     let caption = |i: u32, j: u32| made.part([beside + 12 + i * 102, 40 + 40 + j * 80], [90, 28]);
     assert_eq!(caption(0, 0), caption(0, 1));
     assert_ne!(caption(0, 0), caption(1, 0));
@@ -112,7 +114,8 @@ fn all_cells_are_drawn_in_one_scale() {
             .collect();
         columns[columns.len() - 1] - columns[0] + 1
     });
-    // The radii are 1.5 and 4.5. Pixels that are covered in part cause small differences.
+    // The tori have the outer radii 1.5 and 4.5, so the second image is three times as wide. Pixels that a torus covers
+    // only partly cause small differences.
     assert!((3 * widths[0]).abs_diff(widths[1]) <= 5, "{widths:?}");
 }
 
@@ -129,7 +132,7 @@ fn colors_mean_the_same_in_all_cells_and_are_explained_once() {
     assert!(height > 150);
     let made = pixels(&folder, "s.png");
     assert!(drawn(&made.part([plain, 0], [colored - plain, height])) > 1000);
-    // The second cell has the largest faces, so only these faces have the last colors.
+    // The torus in the second cell has larger faces. Only these faces are yellow, the color of the largest area.
     let colors = |i: u32| {
         let cell = cell(&made, [0, 0], 68, [i, 0]);
         move |is: fn([u8; 3]) -> bool| cell.count(is)
@@ -169,7 +172,7 @@ fn a_cell_that_fails_shows_its_error() {
     );
     assert_eq!(good.count(is_red), 0);
     assert!(failed.count(is_red) > 50);
-    // The cell contains nothing but the red text.
+    // The failed cell contains only red text.
     assert_eq!(failed.count(|[r, g, _]| r < 180 && g < 180), 0);
 }
 
@@ -201,7 +204,7 @@ fn the_bytes_do_not_depend_on_threads_budget_and_cache() {
         folder.read("s.png")
     };
     let one = made("--threads 1 --no-cache");
-    // With a small budget, scenes are not kept but computed again.
+    // With a small memory budget, the scenes are not kept in memory. They are computed again before they are drawn.
     for more in [
         "--threads 8",
         "--threads 8",

@@ -113,7 +113,8 @@ fn recorded_values_are_updated_in_place() {
     assert_eq!(text, expected);
     assert_eq!(folder.read("b.ron"), GOOD.as_bytes());
 
-    // The update does not change limits such as `max`. Once the limit is corrected by hand, there is nothing to update.
+    // `--update` does not change limits such as `max`. After the limit is corrected by hand, `--update` changes
+    // nothing.
     let fixed = text.replace("max: 2", "max: 12");
     let folder = Folder::new().with("a.ron", &fixed);
     for arguments in ["test a.ron", "test a.ron --update", "test a.ron"] {

@@ -76,7 +76,8 @@ fn a_saved_recipe_and_a_saved_input_run_again() {
     watching.wait_for("wrote ./b.obj");
     watching.wait_for("watching one folder");
 
-    // Parameters that were set are kept, and only changed steps run.
+    // The second run uses the same parameter values as the first run, and takes the results of unchanged steps from the
+    // cache.
     let folder = folder.with("recipe.ron", RECIPE.replace("b.obj", "c.obj"));
     watching.wait_for("recipe.ron changed");
     let table = watching.wait_for("wrote ./c.obj");
@@ -113,7 +114,7 @@ fn only_files_that_the_recipe_reads_start_a_run() {
     for is_cached in [false, true] {
         let watching = Watching::start(&folder, &arguments);
         watching.wait_for("watching one folder");
-        // Saving other files, or writing outputs, does not start a run.
+        // No run starts when an output changes, or a file that the recipe does not read.
         std::fs::write(folder.path("notes.txt"), "1").unwrap();
         std::fs::write(folder.path("b.obj"), TRIANGLE).unwrap();
         std::fs::write(folder.path("b.mtl"), "newmtl blue\n").unwrap();

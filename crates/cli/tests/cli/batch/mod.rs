@@ -51,7 +51,7 @@ fn models(folder: &Folder, path: &str) -> Vec<String> {
     names
 }
 
-/// A report without times.
+/// Reads a report and removes the times of the runs.
 fn report(folder: &Folder, path: &str) -> Json {
     let mut report: Json = serde_json::from_slice(&folder.read(path)).unwrap();
     for row in report["rows"].as_array_mut().unwrap() {
@@ -64,7 +64,7 @@ fn rows(report: &Json) -> &Vec<Json> {
     report["rows"].as_array().unwrap()
 }
 
-/// The inputs of a report, each with its text in the column `name`.
+/// Returns the input file of each row of a report, with the text of the row in the column `name`.
 fn column<'r>(report: &'r Json, name: &str) -> Vec<(&'r str, &'r str)> {
     let text = |row: &'r Json, name: &str| row[name].as_str().unwrap_or("");
     rows(report)
@@ -182,7 +182,7 @@ fn results_do_not_depend_on_jobs_threads_and_budget() {
     }
 }
 
-/// A line of the output without the time, such as `12 ms`.
+/// Returns a line of the output without its time, such as `12 ms`.
 fn without_time(line: &str) -> String {
     match (line.find(" ("), line.find(" ms")) {
         (Some(from), Some(to)) => line[..from].to_owned() + &line[to..],
@@ -210,7 +210,7 @@ fn an_output_that_cannot_be_written_is_a_failure_and_leaves_no_file() {
         .with_code(0)
         .prints(&["3 ok, 0 failed\n"]);
 
-    // If the journal cannot grow, the batch ends; the journal stays valid.
+    // If the journal cannot be extended, the batch ends. The journal stays valid, so the next batch continues from it.
     let folder = with_models(60);
     let ended = folder.shell(&limited.replace("-f 8", "-f 4")).with_code(1);
     assert!(

@@ -12,16 +12,16 @@ fn finished_files_are_not_processed_again_until_something_changes() {
     assert_eq!(again("--report a.json"), 8);
     assert_eq!(again("--report b.json"), 0);
     assert_eq!(report(&folder, "a.json"), report(&folder, "b.json"));
-    // Only the broken file is processed again.
+    // With `--retry-failed`, only the broken file is processed again.
     assert_eq!(again("--retry-failed"), 1);
-    // An input was changed.
+    // After the change of an input file, only this file is processed again.
     fs::write(folder.path("models/m002.obj"), tetrahedron(9)).unwrap();
     assert_eq!(again(""), 1);
-    // One output file was removed, and another one was changed.
+    // After one output file was removed and another was changed, their two input files are processed again.
     fs::remove_file(folder.path("out/m001.obj")).unwrap();
     fs::write(folder.path("out/m004.obj"), "").unwrap();
     assert_eq!(again(""), 2);
-    // A parameter was changed.
+    // With a different parameter value, all files are processed again.
     assert_eq!(again("--set levels=2"), 8);
     assert_eq!(again("--set levels=2"), 0);
     // Changing a comment of the recipe has no effect, but changing an expectation does.
@@ -69,7 +69,7 @@ fn a_batch_that_is_killed_is_resumed() {
             .count()
     };
     let mut killed_at = Vec::new();
-    // The batch is killed three times, each time after a few more files.
+    // The batch is killed three times. Each time, it has processed at least `further` more files.
     for further in [1, 4, 5] {
         let before = n_recorded(&folder);
         let mut child = Command::new(crate::folder::PROGRAM)
@@ -89,7 +89,7 @@ fn a_batch_that_is_killed_is_resumed() {
     }
     let done = *killed_at.last().unwrap();
     assert!((10..25).contains(&done), "{killed_at:?}");
-    // An incomplete line, as left by a killed process, is not a row.
+    // A killed process can leave an incomplete line at the end of the journal. This line is ignored.
     let torn = fs::read_to_string(folder.path("out/batch.jsonl")).unwrap() + "{\"key\": \"12";
     fs::write(folder.path("out/batch.jsonl"), torn).unwrap();
 

@@ -47,7 +47,7 @@ fn every_parameter_set_is_a_row_and_finished_sets_are_not_run_again() {
         .prints(&["; 3 of them finished in earlier runs\n"]);
     assert_eq!(report(&folder, "r.json"), first);
 
-    // A changed set is run again, and no other.
+    // After a change of one parameter set, the recipe is run again only for this set.
     let folder = folder.with("sets.json", SETS.replace('9', "3"));
     let ended = folder.run("batch recipe.ron --sets sets.json").with_code(0);
     ended.prints(&[
@@ -138,7 +138,8 @@ fn the_memory_of_parts_is_estimated_without_a_run() {
             .unwrap()
     };
     let whole = estimate(1);
-    // The largest mesh has 20,480 triangles. The set with the wrong level needs no memory.
+    // The largest mesh has 20,480 triangles. The last set has an invalid value of `levels`, so its run counts as 0
+    // bytes.
     assert!((1 << 20..1 << 24).contains(&whole), "{whole}");
     assert_eq!(estimate(3), whole);
     assert!(!folder.path("out").exists());

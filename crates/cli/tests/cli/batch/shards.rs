@@ -24,7 +24,7 @@ fn parts_are_disjoint_and_merged_they_are_the_whole() {
     assert_eq!(parts.iter().map(BTreeSet::len).sum::<usize>(), 21);
     assert_eq!(parts.concat_all().len(), 21);
 
-    // Duplicate rows are merged.
+    // `part1.jsonl` is given twice. In the merged report, each of its rows exists only once.
     folder
         .run("batch --merge part3.jsonl part1.jsonl part2.jsonl part1.jsonl --report all.json")
         .with_code(1)
@@ -55,7 +55,8 @@ fn a_batch_is_resumed_with_a_different_number_of_parts() {
     for part in ["1/2", "2/2", "3/3"] {
         kept(&format!("--shard {part}"));
     }
-    // A run with another parameter value replaces the outputs, so the whole batch is processed again afterwards.
+    // A batch with `levels=2` replaces all outputs. Therefore, a later batch without `levels=2` processes all files
+    // again.
     for part in ["1/2", "2/2"] {
         batch(&folder, &format!("--set levels=2 --shard {part}"));
     }

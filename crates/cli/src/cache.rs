@@ -41,7 +41,7 @@ pub(crate) fn caching_for<'a>(cache: &'a Cache, recipe: &'a Path) -> Caching<'a>
     }
 }
 
-/// Returns the text of the warning that the cache cannot be used.
+/// Returns a warning that says why the cache cannot be used.
 pub(crate) fn warning(problem: &str) -> String {
     format!("warning: {problem}; the program continues without the cache\n")
 }

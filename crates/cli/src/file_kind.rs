@@ -18,14 +18,14 @@ pub(crate) enum FileKind {
     Mesh,
 }
 
-/// The maximum size of a sweep, in bytes. A larger file is assumed to be a recipe, and is not read here. Sweeps are
-/// short.
+/// The maximum size of a sweep, in bytes. Sweeps are short. Therefore, a larger file is assumed to be a recipe, without
+/// reading its contents.
 const MAX_SWEEP: u64 = 1 << 20;
 
 /// Checks the kind of a file by its extension. Recipes and sweeps share an extension, so they are distinguished by
-/// their contents. If a recipe or a sweep is expected, a file with an unknown extension must begin like a recipe. If a
-/// file is missing, or its kind is unknown for another reason, this check succeeds, because the command itself reports
-/// the error.
+/// their contents. If a recipe or a sweep is expected, a file with an unknown extension must begin like a recipe. If
+/// the file does not exist or its kind cannot be determined, this check succeeds, because the command reports the error
+/// when it reads the file.
 ///
 /// # Errors
 ///

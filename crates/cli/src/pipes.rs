@@ -14,8 +14,8 @@ use store::{Disk, Memory, Store as _};
 
 use crate::args::WrongUsage;
 
-/// The maximum size of a mesh file on standard input, in bytes. The limit is needed because the size of the data is not
-/// known before all of it is read.
+/// The maximum size of a mesh file on standard input, in bytes. The size of the data is not known before all data is
+/// read. Without a limit, the data could fill the memory.
 const MAX_INPUT: u64 = 1 << 32;
 
 /// Whether a path stands for standard input or standard output. The path of a file that has the name `-` is `./-`.

@@ -21,8 +21,8 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     let path = &pipes::mesh_name(&args.file, args.from.as_deref(), "stdin", "--from")?;
     let (scene, notes) = read_file_or_input(&args.file, path, &args.read.options())?;
     let pictures = args.picture_errors.of(path, BUDGET);
-    // The notes of the reader give locations in object space. Therefore the objects are drawn without the nodes of the
-    // scene, which would transform them.
+    // The reader's notes have locations in object space. Therefore, the objects are drawn without the transforms of the
+    // scene's nodes.
     let mut unplaced = Scene::new();
     unplaced.append(scene.objects().to_vec(), Graph::default())?;
     for note in &notes {

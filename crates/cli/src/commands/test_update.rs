@@ -17,7 +17,8 @@ pub(crate) fn update_recorded_values(
     outcome: &mut Outcome,
 ) -> anyhow::Result<Vec<String>> {
     let update = update(&loaded.recipe, outcome);
-    // Reference files are written first. If a reference file cannot be written, the recipe stays unchanged.
+    // The reference files are written before the recipe. If a reference file cannot be written, the recipe stays
+    // unchanged.
     let files = update
         .files
         .iter()

@@ -160,7 +160,7 @@ fn start(folder: &Folder, out: &str) -> std::process::Child {
         .unwrap()
 }
 
-/// A run that is long enough to be killed in the middle.
+/// A recipe that runs long enough for a test to kill the run in the middle.
 const LONGER: &str = r#"(recipe: 1, steps: [
     Torus(name: "a", around: 60, across: 40),
     Triangulate,
@@ -171,7 +171,7 @@ const LONGER: &str = r#"(recipe: 1, steps: [
     Save(path: "a.glb"),
 ], expect: [Genus(eq: 1), Closed])"#;
 
-/// Checks that the events and outputs are those of a run without a cache.
+/// Checks that a run with the cache gives the same events and outputs as a run without the cache.
 fn check_run(folder: &Folder, plain: &Ended, out: &str, stdout: &[u8]) {
     assert_eq!(
         comparable_events(stdout),

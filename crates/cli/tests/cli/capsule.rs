@@ -22,7 +22,7 @@ fn folder() -> Folder {
         .with("scenes/part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
 }
 
-/// The first line of an error, without its location.
+/// Returns the first line of an error message. The location of the error is on later lines.
 fn first_line(stderr: &str) -> &str {
     stderr.lines().next().unwrap_or_default()
 }

@@ -12,7 +12,7 @@ pub(crate) const PROGRAM: &str = env!("CARGO_BIN_EXE_meshwright");
 /// A temporary working folder, and a temporary folder for the cache. Both folders are removed after the test.
 pub(crate) struct Folder(TempDir, TempDir);
 
-/// How the program ended.
+/// The exit code and the output of a program that has ended.
 #[derive(Debug)]
 pub(crate) struct Ended {
     pub(crate) code: Option<i32>,
@@ -61,13 +61,13 @@ impl Folder {
         self.command(PROGRAM, arguments, b"")
     }
 
-    /// Runs the program with these arguments, separated by spaces, and this standard input.
+    /// Runs the program with these arguments, separated by spaces, and passes `input` to its standard input.
     pub(crate) fn run_with(&self, arguments: &str, input: impl AsRef<[u8]>) -> Ended {
         let arguments: Vec<&str> = arguments.split_whitespace().collect();
         self.command(PROGRAM, &arguments, input.as_ref())
     }
 
-    /// Runs shell commands; `"$0"` is the program.
+    /// Runs shell commands. In the commands, `"$0"` stands for the path of the program.
     #[cfg(unix)]
     pub(crate) fn shell(&self, commands: &str) -> Ended {
         self.command("sh", &["-c", commands, PROGRAM], b"")
@@ -134,7 +134,7 @@ impl Ended {
         self.stdout.lines().map(event).collect()
     }
 
-    /// The digest that a run prints.
+    /// Returns the digest that `meshwright run` has printed.
     #[track_caller]
     pub(crate) fn digest(&self) -> &str {
         let line = self.stdout.lines().find_map(|l| l.strip_prefix("digest "));

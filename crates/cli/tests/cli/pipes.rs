@@ -23,7 +23,7 @@ fn a_recipe_is_read_from_standard_input_with_paths_of_the_working_directory() {
         .run_with("run -", "(recipe: 1, steps: [Cubee()])")
         .with_code(1)
         .complains(&["stdin.ron:1:21"]);
-    // A failure can be reproduced from its capsule, without standard input.
+    // The capsule (a recipe that reproduces the failure) does not need standard input.
     let failing = r"(recipe: 1, steps: [Cube(), SplitEdges(edges: Between(0, 6))])";
     folder
         .run_with("run - --capsule failing --picture-errors", failing)
@@ -85,7 +85,7 @@ fn a_file_goes_through_both_pipes_as_it_goes_through_files() {
             .with_code(0)
             .prints(&["vertices           4"]);
     }
-    // The data can also be compressed.
+    // The mesh on standard input can be compressed with gzip.
     folder
         .shell(r#""$0" convert in.obj - --to obj.gz | "$0" convert - out.ply --from obj.gz"#)
         .with_code(0)

@@ -12,9 +12,9 @@ pub(super) fn folder(out: &Path) -> PathBuf {
     out.join("failed")
 }
 
-/// Returns the path of the file for one failure. The name of this file begins with the name of the input file,
-/// shortened and limited to characters that all file systems allow. A digest follows, which distinguishes input files
-/// of the same name.
+/// Returns the path of the file for one failure. The name of this file begins with the name of the input file. This
+/// part is shortened, and characters that some file systems do not allow are replaced. The digest at the end
+/// distinguishes input files that have the same name.
 fn path(batch: &Batch, file: &Input) -> PathBuf {
     let name = file.relative.file_name().unwrap_or("set".as_ref());
     let mut name = name.to_string_lossy().into_owned();

@@ -1,4 +1,5 @@
-//! Algorithms on a [`Mesh`](mesh::Mesh). Most of them use more than one element and its neighbors.
+//! Algorithms on a [`Mesh`](mesh::Mesh). Most of these algorithms need more of the mesh than one element and its
+//! neighbors.
 //!
 //! | items | contents |
 //! | --- | --- |

@@ -1,5 +1,5 @@
-//! Lines: chains of edges that simplification and remeshing preserve, for example boundaries and seams. Finds the edges
-//! of these lines, and how the lines restrict the movement of the vertices on them.
+//! Lines: chains of edges that simplification and remeshing preserve, for example boundaries and seams. This module
+//! finds the edges of these lines, and determines how vertices on lines are allowed to move.
 
 use mesh::{CREASE, Column, Domain, EdgeId, FaceId, Mesh, Values, VertexId, parallel};
 
@@ -11,8 +11,8 @@ pub(crate) enum Kind {
     /// The vertex is on one line. In simplification, a vertex on a line moves only when it merges with a neighbor on
     /// the line. In remeshing, a vertex on a line moves along the line.
     Line,
-    /// The vertex does not move. It is pinned, or it is the end of a line or a meeting point of lines. A vertex at
-    /// which the edge attributes of a line change does not move either.
+    /// The vertex does not move. The vertex is pinned, is the end of a line or a meeting point of lines, or lies
+    /// between two edges of a line that have different attributes.
     Fixed,
 }
 

@@ -10,8 +10,9 @@
 //!
 //! Faces that are adjacent in the mesh and belong to the same part stay connected. A fan is a set of faces around a
 //! vertex that are connected by edges at this vertex. At a vertex of the new boundary, each fan has one boundary
-//! half-edge that ends at the vertex and one that leaves the vertex. The second half-edge becomes the successor of the
-//! first one. If a vertex has several fans, the first fan keeps the vertex and each of the other fans gets a copy.
+//! half-edge that ends at the vertex and one that leaves the vertex. The half-edge that leaves the vertex becomes the
+//! successor of the half-edge that ends there. If a vertex has several fans, the first fan keeps the vertex and each of
+//! the other fans gets a copy.
 
 use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 

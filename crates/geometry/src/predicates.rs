@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(orient3d(o, x, y, x + y), Ordering::Equal);
     }
 
-    /// Without correction, floating-point arithmetic would put many points next to a line or plane on the wrong side.
+    /// Ordinary floating-point arithmetic would put many points that are very near a line or plane on the wrong side.
     #[test]
     fn points_next_to_a_line_and_a_plane_are_on_their_sides() {
         let ulp = f64::EPSILON / 2.0;

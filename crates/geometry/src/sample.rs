@@ -20,17 +20,17 @@ pub struct Sample {
     pub face: FaceId,
 }
 
-/// For each returned point, this number of random candidates is drawn.
+/// The number of random candidates that are drawn for each returned point.
 const CANDIDATES: usize = 5;
 
 /// Returns exactly `count` random, evenly spread points on a surface. Polygons are triangulated. Returns no points if
 /// the area of the surface is zero or not finite.
 ///
-/// First, 5 × `count` random points are drawn, so that equal areas get about equal numbers of points. Then the most
-/// crowded point is removed, again and again, until `count` points are left (Yuksel, "Sample Elimination for Generating
-/// Poisson Disk Sample Sets", 2015). A point is crowded if many other points are near it; the nearer they are, the more
-/// they count. Distances are Euclidean, not along the surface. The returned points are in the order in which they were
-/// drawn. The result depends only on the mesh, `count` and the seed.
+/// First, 5 × `count` random points are drawn; parts of the surface with equal areas get about equal numbers of points.
+/// Then the most crowded point is removed, again and again, until `count` points are left (Yuksel, "Sample Elimination
+/// for Generating Poisson Disk Sample Sets", 2015). A point is crowded if many other points are near it. A nearer point
+/// counts more than a more distant one. Distances are Euclidean, not along the surface. The returned points are in the
+/// order in which they were drawn. The result depends only on the mesh, `count` and the seed.
 ///
 /// # Errors
 ///
@@ -77,8 +77,8 @@ pub fn samples(
         let Some((bits, std::cmp::Reverse(i))) = heap.pop() else {
             break;
         };
-        // If the weight of this candidate has changed since the entry was made, the entry is skipped: the queue has a
-        // newer entry for the same candidate.
+        // If the weight of a candidate has changed since this queue entry was made, the entry is skipped: the queue has
+        // a newer entry for the candidate.
         if !is_kept[i] || bits != f64::to_bits(crowding[i]) {
             continue;
         }
@@ -113,7 +113,8 @@ fn entry(weight: f64, i: usize) -> (u64, std::cmp::Reverse<usize>) {
     (weight.to_bits(), std::cmp::Reverse(i))
 }
 
-/// Returns `n` random points, so that equal areas get about equal numbers of points. Also returns the total area.
+/// Returns `n` random points on the surface. Parts of the surface with equal areas get about equal numbers of points.
+/// Also returns the total area.
 fn candidates(mesh: &Mesh, n: usize, seed: u64) -> (Vec<Sample>, f64) {
     let triangles = triangles(mesh);
     let mut sums = Vec::with_capacity(triangles.len());
@@ -233,8 +234,8 @@ mod tests {
                 least = least.min(a.position.distance(b.position));
             }
         }
-        // If the points were random and independent, their smallest distance would be about a thirtieth of the required
-        // distance.
+        // If the points were random and independent, the smallest distance between two of them would be about a
+        // thirtieth of the required distance.
         assert!(least > 0.6 * 2.0 * radius, "{least} {radius}");
     }
 

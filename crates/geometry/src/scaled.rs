@@ -22,7 +22,7 @@ pub struct Scaled<'a> {
 }
 
 impl<'a> Scaled<'a> {
-    /// Scales a mesh if its coordinates are very small or very large. A mesh that is scaled loses its attributes.
+    /// Scales a mesh if its coordinates are very small or very large. The scaled mesh has no attributes.
     pub fn new(mesh: &'a Mesh) -> Self {
         Self::by(mesh, ordinary(exponent(mesh.positions())))
     }
@@ -75,8 +75,8 @@ impl<'a> Scaled<'a> {
     }
 }
 
-/// Returns the exponent of the scale for coordinates of the size 2^`exponent`: `exponent` itself, or 0 if such
-/// coordinates need no scaling.
+/// Returns the number n such that a mesh with coordinates up to about 2^`exponent` is divided by 2^n: `exponent`
+/// itself, or 0 if the mesh needs no scaling.
 fn ordinary(exponent: i32) -> i32 {
     if (-ORDINARY..ORDINARY).contains(&exponent) {
         0

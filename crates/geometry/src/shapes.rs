@@ -264,7 +264,7 @@ fn turn(i: u32, n: u32) -> (f64, f64) {
     (cos, sin)
 }
 
-/// Builds a mesh from polygons. The caller knows that these polygons form a manifold.
+/// Builds a mesh from polygons. The polygons must form a manifold.
 fn of(positions: Vec<DVec3>, polygons: &[impl AsRef<[u32]> + Sync]) -> Mesh {
     let (mesh, report) =
         Mesh::from_polygons(positions, polygons).expect("the polygons of a shape are valid");

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Source: Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008. Most tools that bake or render normal maps use
-//! this algorithm, because a normal map gives correct shading only with the tangents for which it was made.
+//! `MikkTSpace`, because a normal map gives correct shading only with the tangents for which the map was made.
 
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use mesh::{CORNER_NORMAL, DVec2, DVec3, DVec4, HalfEdgeId, Mesh, VERTEX_NORMAL};
@@ -47,7 +47,7 @@ pub fn tangents(mesh: &Mesh, uvs: &[DVec2]) -> Option<Tangents> {
         triangles: triangles(mesh),
         found: vec![None; mesh.n_half_edges()],
     };
-    // The error type has no values, so this call never fails.
+    // The error type of `generate_tangents` is an empty enum, so this call never fails.
     let Ok(()) = generate_tangents(&mut corners) else {
         return None;
     };
@@ -99,7 +99,8 @@ enum Normals<'a> {
     Vertices(&'a [DVec3]),
 }
 
-/// The corners of a mesh as the algorithm reads them, and the tangents that it writes.
+/// The input and output of `MikkTSpace`: the corners of a mesh that the algorithm reads, and the tangents that it
+/// writes.
 struct Corners<'a> {
     mesh: &'a Mesh,
     uvs: &'a [DVec2],

@@ -95,7 +95,7 @@ impl Cut {
         into.clear();
         // The corners of a triangle are in ascending order. In one triangle, the side from the first to the last corner
         // is the side of the face between its corner 0 and its last corner. In all other triangles, this side is a
-        // diagonal. Each diagonal occurs exactly once in this way.
+        // diagonal. Each diagonal joins the first and the last corner of exactly one triangle.
         let triangles = self.triangles();
         let last = u32::try_from(triangles.len()).expect("corners fit 32 bits") + 1;
         let sides = triangles.iter().map(|&[a, _, c]| [a, c]);
@@ -104,7 +104,7 @@ impl Cut {
     }
 }
 
-/// Triangulates faces, one after another. Its buffers are used again for each face.
+/// Triangulates faces, one after another. A `Cutter` uses its buffers again for each face.
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference of the
 /// squared lengths at most 1e-12), the diagonal that ends at the vertex with the lowest id is used. A diagonal is bad

@@ -10,20 +10,19 @@ use crate::deform::noise::random;
 use crate::deform::vertex_directions;
 use crate::surface_index::SurfaceIndex;
 
-/// Rays start a little away from the surface. This is their distance from the surface, as a fraction of the diagonal of
-/// the bounding box.
+/// The distance from the surface at which rays start, as a fraction of the diagonal of the bounding box.
 const OFFSET: f64 = 1e-7;
-/// A ray that measures the thickness starts near a vertex, at a point of one of its faces. Let l be the length of the
-/// shorter of the two edges of the face at the vertex. The distance of the point from the vertex is at most twice this
-/// fraction of l.
+/// A ray that measures the thickness at a vertex starts on a face, near the vertex. The distance of this start from the
+/// vertex is at most twice this fraction of the length of the shorter of the two edges of the face at the vertex.
 const INWARD: f64 = 1e-3;
 /// The number of vertices in a block. One thread computes the values of all vertices of a block.
 const BLOCK: usize = 256;
 
 /// Returns the thickness of the solid at each vertex, in scene units. Entry i belongs to the vertex with the index i.
 /// For each face around the vertex, a ray starts on the face near the vertex and runs inward at a right angle to the
-/// face until it leaves the solid. The thickness is the length of the shortest ray. The thickness is infinite if no ray
-/// meets the surface again, for example on a flat sheet, or if all faces around the vertex have zero area.
+/// face until it leaves the solid. The thickness at a vertex is the length of the shortest ray. The thickness is
+/// infinite if no ray meets the surface again, for example on a flat sheet, or if all faces around the vertex have zero
+/// area.
 ///
 /// For a plate, the thickness at every vertex is the distance between the two sides of the plate, even at its edges and
 /// corners. Where closed parts of the surface overlap, a ray does not end at a point where it enters another part; it
@@ -102,7 +101,8 @@ pub fn occlusion(
         return Ok(vec![f64::NAN; mesh.n_vertices()]);
     };
     let (offset, normals) = (offset(&index), vertex_directions(mesh));
-    // The directions of the rays for a normal along the z axis. At each vertex, they are turned to its normal.
+    // The directions of the rays for a normal along the z axis. At each vertex, these directions are turned to the
+    // normal of the vertex.
     let lattice: Vec<DVec3> = (0..rays)
         .map(|i| {
             let height = (f64::from(i) + 0.5) / f64::from(rays);

@@ -128,11 +128,11 @@ struct Corner {
 #[derive(Clone, Copy)]
 struct Point {
     position: DVec3,
-    /// The values of the new vertex are a weighted mean of the values at three corners of the face. This is the weight
-    /// of the corner at the target of the half-edge.
+    /// The weight of the corner at the target of the half-edge. The values of the new vertex are a weighted mean of the
+    /// values at three corners of the face.
     along: f64,
-    /// The weight of the corner at the origin of the previous half-edge of the face. The corner at the origin of the
-    /// half-edge has the rest of the weight.
+    /// The weight of the corner at the origin of the previous half-edge of the face. The three weights add up to 1; the
+    /// third is the weight of the corner at the origin of the half-edge.
     before: f64,
 }
 

@@ -33,8 +33,8 @@ impl Corner {
 /// Returns chords, as pairs of corner indices, that cut the polygon so that no part has corners on both sides of the
 /// line. The polygon must have corners on both sides of the line. `normal` is the normal of the polygon.
 ///
-/// It can happen that the chords inside the polygon cannot be determined, or that they do not separate the two sides of
-/// the line. In this case, each chain of corners to the left of the line is cut off separately.
+/// If the chords inside the polygon cannot be determined, or do not separate the two sides of the line, each chain of
+/// corners to the left of the line is cut off separately.
 pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_good = |chords: &[[u32; 2]]| {
@@ -58,9 +58,9 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
     left_chords(corners)
 }
 
-/// Returns the chords inside the polygon, as pairs of corner indices. Returns `None` if the sides at two consecutive
-/// corners on the line show different results: the line is inside the polygon ahead of the first corner, but not behind
-/// the second corner, or the reverse.
+/// Returns the chords inside the polygon, as pairs of corner indices. Returns `None` if the corners on the line
+/// contradict each other: for example, if the line is inside the polygon just ahead of one corner, but not just behind
+/// the next corner.
 fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     let n = corners.len();
     let mut on_line: Vec<usize> = (0..n).filter(|&i| corners[i].height == 0.0).collect();

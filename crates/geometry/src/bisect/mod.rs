@@ -61,12 +61,13 @@ pub struct Bisection {
 /// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times. The
 /// intervals of the line between the crossings are alternately inside and outside of the face. At each corner on the
 /// line, the adjacent sides of the face show whether the intervals next to the corner are inside. If a face is not flat
-/// or intersects itself, the two corners at the ends of an interval can show different results. In this case, each part
-/// of the face in front of the plane is cut off separately. If two faces share both edges that the plane crosses, each
+/// or intersects itself, the sides at the two ends of an interval can contradict each other. In this case, each part of
+/// the face in front of the plane is cut off separately. If two faces share both edges that the plane crosses, each
 /// face gets a separate edge between the same two crossing points.
 ///
-/// A face that lies in the plane counts as in front of the plane if its normal points to the back. In this case, the
-/// solid that the face bounds lies in front of the plane. Any other face in the plane counts as behind the plane.
+/// A face that lies in the plane counts as in front of the plane if its normal points to the back of the plane, because
+/// the solid that the face bounds then lies in front of the plane. Any other face in the plane counts as behind the
+/// plane.
 ///
 /// # Errors
 ///
@@ -114,8 +115,8 @@ fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditErr
             return Ok(0.0);
         }
         let height = (mesh.position(v) - point).dot(normal);
-        // The difference of the heights of any two vertices must be finite too. Its absolute value is at most twice the
-        // larger absolute height.
+        // The difference of the heights of any two vertices must be finite too. This difference is at most twice the
+        // largest absolute height.
         if !(2.0 * height).is_finite() || !near.is_finite() {
             return Err(EditError::BadNumber(height));
         }

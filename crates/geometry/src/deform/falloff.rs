@@ -22,8 +22,8 @@ pub fn falloff(points: &[DVec3], is_selected: &[bool], radius: f64) -> Vec<f64> 
     })
 }
 
-/// A part of the tree with at most this number of points is not divided further. The search compares all points of such
-/// a part.
+/// A part of the tree with at most this number of points is not divided further: the search computes the distances to
+/// all points of the part.
 const LEAF: usize = 16;
 
 /// Sorts points into the order of a balanced k-d tree. The median point along `axis` divides the points in two halves.
@@ -39,8 +39,8 @@ fn sort(points: &mut [DVec3], axis: usize) {
     }
 }
 
-/// Returns the squared distance from `p` to the nearest point of the tree. Returns `best`, also a squared distance, if
-/// no point of the tree is nearer than that.
+/// Returns the squared distance from `p` to the nearest point of the tree. Returns `best`, which is also a squared
+/// distance, if no point of the tree is nearer.
 fn nearest(tree: &[DVec3], p: DVec3, best: f64, axis: usize) -> f64 {
     if tree.len() <= LEAF {
         let squares = tree.iter().map(|q| q.distance_squared(p));

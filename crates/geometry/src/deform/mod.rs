@@ -43,7 +43,8 @@ pub fn vertex_directions(mesh: &Mesh) -> Vec<DVec3> {
             sum += vector;
             size += vector.length();
         }
-        // A sum that is much shorter than the sum of the lengths is only a rounding error.
+        // If the sum of the area vectors is much shorter than the sum of their lengths, the exact sum is possibly zero,
+        // and the computed sum is only a rounding error.
         if sum.length() > 1e-14 * size {
             sum.normalize_or_zero()
         } else {

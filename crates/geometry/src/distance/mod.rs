@@ -12,8 +12,8 @@
 //!  a-----b        a--m--b     the furthest corner of the piece. This gives a bound for all points.
 //! ```
 //!
-//! A piece is cut only if its bound exceeds the largest distance found so far by more than the tolerance. Source of the
-//! measures: Aspert, Santa-Cruz, Ebrahimi, "MESH: Measuring Errors between Surfaces using the Hausdorff
+//! A piece is cut only if its upper bound exceeds the largest distance found so far by more than the tolerance. Source
+//! of the measures: Aspert, Santa-Cruz, Ebrahimi, "MESH: Measuring Errors between Surfaces using the Hausdorff
 //! Distance", 2002. Source of the bounds and of the cutting: Tang, Lee, Kim, "Interactive Hausdorff Distance
 //! Computation for General Polygonal Models", 2009. Pieces are cut in rounds. The largest distance is updated only
 //! after each round, so that the result is the same for any number of threads.
@@ -184,7 +184,7 @@ struct Block {
     farthest: Option<Farthest>,
     /// The sum of the areas of the triangles.
     area: f64,
-    /// The sum, over the triangles, of area times mean distance.
+    /// The sum of the products of the area and the mean distance of each triangle.
     weighted: f64,
 }
 

@@ -130,9 +130,9 @@ impl Piece {
         self.corners.iter().map(distance).fold(0.0, f64::max)
     }
 
-    /// Whether cutting the piece can lower its upper bound. The answer is no if two conditions hold. First, the
-    /// distance at a corner is inexact, because a search stopped early. Second, the upper bound is at most `tolerance`
-    /// above the largest distance at a corner.
+    /// Whether cutting the piece can lower its upper bound. Returns false if two conditions hold: the distance at a
+    /// corner is inexact, because a search stopped early, and the upper bound is at most `tolerance` above the largest
+    /// distance at a corner.
     fn can_improve(&self, tolerance: f64) -> bool {
         let hits = self.corners.map(|s| s.hit);
         let far = hits.iter().fold(0.0, |d, hit| hit.distance.max(d));

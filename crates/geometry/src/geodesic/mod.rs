@@ -24,8 +24,8 @@ use crate::laplacian::exponent;
 use crate::sparse::{Factor, SolveError, SymmetricMatrix};
 use intrinsic::{Intrinsic, area, cotangent, scaled_points};
 
-/// The smallest heat at which the directions of its gradient are accurate. This heat is well above the smallest
-/// positive `f64`.
+/// The smallest heat at which the direction of the gradient of the heat is accurate. This heat is well above the
+/// smallest positive `f64`.
 const LEAST_HEAT: f64 = 1e-280;
 
 /// Returns the distance along the surface from each vertex to the nearest source, in scene units. Entry i belongs to
@@ -142,11 +142,11 @@ fn heat(
 fn flow(surface: &Intrinsic, heat: &[f64], n: usize) -> Vec<f64> {
     let of_triangle = |(corners, &[a, b, c]): (&[u32; 3], &[f64; 3])| {
         // The triangle is laid out in a plane. Its corners are at (0, 0), (a, 0) and (x, y), where a is the length of
-        // its first side.
+        // the first side of the triangle.
         let x = (a * a + c * c - b * b) / (2.0 * a);
         let y = 2.0 * area([a, b, c]) / a;
-        // A hat function is 1 at one corner and 0 at the two others. Its gradient, times twice the area, is the side
-        // opposite this corner, turned by 90°.
+        // A hat function is 1 at one corner and 0 at the two others. The gradient of this function, times twice the
+        // area of the triangle, is the side opposite the first corner, turned by 90°.
         let hats = [[-y, x - a], [y, -x], [0.0, a]];
         let values = corners.map(|v| heat[v as usize]);
         let largest = values.iter().fold(0.0, |max: f64, u| max.max(u.abs()));

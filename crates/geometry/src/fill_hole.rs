@@ -14,12 +14,13 @@ use std::collections::BinaryHeap;
 
 use mesh::{DVec3, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
-/// The maximum number of edges of a hole for which the triangulation with the smallest total area is computed. The time
-/// for this grows with the third power of the number of edges; for 500 edges, it is about a tenth of a second.
+/// The maximum number of edges of a hole for which the triangulation with the smallest cost is computed. The
+/// computation takes time proportional to the third power of the number of edges: about a tenth of a second for 500
+/// edges.
 const MAX_EXACT_EDGES: usize = 500;
 
-/// The cost of a triangle is its area plus a term for its shape. This is the largest value of the shape term, as a
-/// fraction of the mean squared edge length of the hole.
+/// The largest value of the shape term, as a fraction of the mean squared edge length of the hole. The cost of a
+/// triangle is its area plus a shape term.
 const SHAPE_WEIGHT: f64 = 1e-6;
 
 /// Fills the hole of `h`, a half-edge without a face, with triangles.
@@ -84,8 +85,8 @@ struct Hole<'m> {
 }
 
 /// The cheapest triangulation of a part of the rim (consecutive vertices around the hole). The first number is the cost
-/// of the triangulation. One of its triangles has a side that joins the two ends of the part. The second number is the
-/// third corner of this triangle.
+/// of the triangulation. The second number is a corner: it forms a triangle of the triangulation with the two ends of
+/// the part.
 type Best = (f64, usize);
 
 impl<'m> Hole<'m> {
@@ -160,7 +161,8 @@ impl<'m> Hole<'m> {
         }
 
         // The corner `middle` of a triangle is cut off only after the two parts of the hole beside the triangle are
-        // filled. The loop below visits each triangle before these parts, so the order is reversed at the end.
+        // filled. The loop below visits each triangle before the two parts beside it, so the order is reversed at the
+        // end.
         let mut ears = Vec::with_capacity(n - 2);
         let mut parts = vec![(0, n - 1)];
         while let Some((i, k)) = parts.pop() {
@@ -195,8 +197,8 @@ impl<'m> Hole<'m> {
         let mut is_cut = vec![false; n];
         while ears.len() < n - 3 {
             let Reverse((_, ear, p, q)) = queue.pop()?;
-            // An entry is out of date if its corner or a neighbor of the corner was cut off. Such an entry is skipped;
-            // the queue has a newer entry for each corner that remains.
+            // If the corner of an entry or a neighbor of the corner was cut off, the entry is out of date and is
+            // skipped. The queue has a newer entry for each corner that remains.
             let is_outdated = is_cut[ear] || before[ear] != p || next[ear] != q;
             if is_outdated || self.is_joined(p, q) {
                 continue;

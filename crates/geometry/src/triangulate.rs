@@ -104,7 +104,7 @@ impl Cut {
     }
 }
 
-/// Triangulates faces, one after another. A `Cutter` uses its buffers again for each face.
+/// Triangulates faces, one after another, and uses the same buffers for all of them.
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference of the
 /// squared lengths at most 1e-12), the diagonal that ends at the vertex with the lowest id is used. A diagonal is bad

@@ -165,8 +165,7 @@ impl Reach {
     /// difference, the result is also true for every difference whose coordinates have smaller absolute values.
     fn covers(&self, difference: DVec3) -> bool {
         if self.squared == 0.0 {
-            // Tests whether the difference itself is 0. The square of a tiny difference can be rounded to 0, so the
-            // squared length would be misleading.
+            // Does not compute the squared length, because the square of a tiny difference can be rounded to 0.
             difference == DVec3::ZERO
         } else {
             (self.scale * difference).length_squared() <= self.squared
@@ -396,7 +395,7 @@ mod tests {
             let a = DVec3::from_array(at) + offset;
             for (factor, near) in [(0.9, true), (1.1, false)] {
                 let mut points = vec![a, a + factor * distance * direction];
-                // The other points are far away from the first two points. They only make the tree deeper.
+                // The other points are far away from the first two points, and only make the tree deeper.
                 points.extend(noise(others).iter().map(|&p| a + 1e4 * (p + 1.0)));
                 // Skips cases in which the rounding of large coordinates could move a point by more than 1 % of the
                 // distance.

@@ -234,7 +234,7 @@ impl Polygons {
         });
         attributes.drop_by_rule();
         if has_reversed {
-            // The normals would point to the wrong side of the reversed faces.
+            // Stored normals would point to the wrong side of the reversed faces.
             attributes.remove(Domain::Vertex, VERTEX_NORMAL.name);
             attributes.remove(Domain::Corner, CORNER_NORMAL.name);
         }

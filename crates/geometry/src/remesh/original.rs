@@ -50,7 +50,7 @@ pub(super) struct Original<'a> {
 /// Where a vertex lies on the original surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    /// At this vertex of the original mesh. Such a vertex never moves.
+    /// At this vertex of the original mesh. A vertex at this place never moves.
     Corner(VertexId),
     /// On the line `chain`, at the arc length `at` from the start of the line.
     Line { chain: u32, at: f64 },
@@ -333,8 +333,8 @@ fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) 
             mesh.position(v) - mesh.position(a),
             mesh.position(b) - mesh.position(v),
         );
-        // An edge of length zero has no direction, so the test is false beside such an edge, and the vertex is a
-        // corner.
+        // An edge of length zero has no direction. At the end of an edge of length zero, the comparison is false, and
+        // the vertex counts as a corner.
         let is_straight = x.dot(y) > STRAIGHT * (x.length_squared() * y.length_squared()).sqrt();
         !is_straight
     };

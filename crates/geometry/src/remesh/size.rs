@@ -122,10 +122,10 @@ fn chord(curvature: f64, error: f64) -> f64 {
 }
 
 /// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). H is the mean
-/// curvature and K the Gaussian curvature. Each value is averaged once with the values of the neighboring vertices. The
-/// curvature of the surface is not used at vertices on lines, because the surface bends sharply at many lines. A vertex
-/// on a line gets the larger of two values: the mean of the values of its neighbors inside charts, and the curvature of
-/// the line.
+/// curvature and K the Gaussian curvature. The result at a vertex inside a chart is the average of two numbers: the
+/// value at the vertex, and the average of the values at its neighbors inside charts. The curvature of the surface is
+/// not used at vertices on lines, because the surface bends sharply at many lines. A vertex on a line gets the larger
+/// of two values: the mean of the values of its neighbors inside charts, and the curvature of the line.
 fn curvatures(original: &Original) -> Vec<f64> {
     let mesh = &original.mesh;
     let (gaussian, mean) = (gaussian_curvatures(mesh), mean_curvatures(mesh));
@@ -154,7 +154,7 @@ fn curvatures(original: &Original) -> Vec<f64> {
 }
 
 /// Returns the curvature of a line at one of its vertices: the angle by which the line turns at the vertex, divided by
-/// half the total length of the two edges there. The curvature is 0 at the corners of the line.
+/// half the total length of the two edges of the line at the vertex. The curvature is 0 at the corners of the line.
 fn line_curvature(original: &Original, v: VertexId) -> f64 {
     let Place::Line { .. } = original.places[v.index()] else {
         return 0.0;

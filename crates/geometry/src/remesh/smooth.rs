@@ -161,7 +161,7 @@ impl Work<'_> {
             let [a, b, c] = self.triangle(h);
             let cross = cross([a, b, c]);
             // The weight of the center of a triangle is the area of the triangle times the sum of the target lengths at
-            // the other two corners.
+            // the two corners other than `v`.
             let size = self.sizes[self.mesh.target(h).index()]
                 + self.sizes[self.mesh.target(self.mesh.next(h)).index()];
             let area = cross.length() * size;

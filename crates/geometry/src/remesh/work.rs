@@ -6,8 +6,8 @@ use super::Counts;
 use super::original::{Original, Place, Track};
 use super::size::Sizes;
 
-/// One step (a split, a collapse, a flip or a movement) is allowed to turn a triangle by at most 60°. This is the
-/// cosine of that angle.
+/// The cosine of 60°. One step (a split, a collapse, a flip or a movement) is allowed to turn a triangle by at most
+/// 60°.
 pub(super) const TURN: f64 = 0.5;
 
 /// The state of the mesh between two steps of remeshing.
@@ -149,10 +149,10 @@ pub(super) fn is_turned(before: DVec3, after: DVec3) -> bool {
     before != DVec3::ZERO && !is_kept
 }
 
-/// The cosine of 20°. If the angle between the normals of two triangles is larger than 20°, the surface counts as bent.
-/// Where it is bent, the distance between new triangles and the original surface is checked. On a model of a rocker
-/// arm, the largest distance between the original and the result is 0.21 % of the diagonal of the bounding box with the
-/// limit 20°. With the limit 37°, this distance is 0.31 %.
+/// The cosine of 20°. If the angle between the normals of two triangles is larger than 20°, the surface counts as bent
+/// between them. Where the surface is bent, the distance between new triangles and the original surface is checked. On
+/// a model of a rocker arm, the largest distance between the original and the result is 0.21 % of the diagonal of the
+/// bounding box with the limit 20°. With the limit 37°, the largest distance is 0.31 %.
 const BENT: f64 = 0.94;
 
 /// Whether the surface is bent between two triangles; see [`BENT`]. The arguments are the [`cross`] products of the

@@ -55,12 +55,14 @@ pub enum Method {
         /// bounding box; a longer time has the same effect.
         time: f64,
     },
-    /// Filters the normals of the faces with weights that decrease with the distance and with the angle between
-    /// normals, then moves the vertices so that the faces have the filtered normals. Sources: Zheng, Fu, Au,
-    /// Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011; Sun, Rosin, Martin, Langbein, "Fast and
-    /// Effective Feature-Preserving Mesh Denoising", 2007.
+    /// Filters the normals of the faces, then moves the vertices so that the faces have the filtered normals. Each
+    /// filtered normal is a weighted mean of the normals of neighboring faces. The weights decrease with the distance
+    /// between the faces and with the angle between their normals. Sources: Zheng, Fu, Au, Tai, "Bilateral Normal
+    /// Filtering for Mesh Denoising", 2011; Sun, Rosin, Martin, Langbein, "Fast and Effective Feature-Preserving Mesh
+    /// Denoising", 2007.
     Denoise {
-        /// The angle between two normals at which their weight is exp(-2) = 0.14, in degrees from 0 to 180.
+        /// The angle between the normals of two faces at which the weight is multiplied by exp(-2) = 0.14, in degrees
+        /// from 0 to 180.
         angle: f64,
         /// The number of vertex passes: how often the vertices are moved after the normals were filtered.
         vertex_passes: u32,
@@ -140,7 +142,7 @@ pub enum SmoothError {
     Volume {
         /// The volume before smoothing.
         before: f64,
-        /// Of the volumes that were reached by moving the vertices, the volume nearest to `before`.
+        /// The volume nearest to `before` that was reached by moving the vertices.
         after: f64,
     },
     /// With the given factors, [`Method::Taubin`] would amplify the highest frequency.
@@ -306,8 +308,8 @@ impl<'a> Smoother<'a> {
 
     /// Moves all vertices that are not pinned by the same distance along their normals, so that the mesh has the volume
     /// `target`. The first distance is computed from the derivative of the volume with respect to the distance. This
-    /// derivative is the area around the vertices that move. `target` is a volume in the scaled coordinates, which are
-    /// scene coordinates divided by 2 to the power of `exponent`.
+    /// derivative is the sum of the lengths of the area vectors at the vertices that move. `target` is a volume in the
+    /// scaled coordinates, which are scene coordinates divided by 2 to the power of `exponent`.
     fn restore_volume(
         &self,
         mesh: &mut Mesh,
@@ -334,7 +336,7 @@ impl<'a> Smoother<'a> {
             volume(mesh)
         };
         let (mut distance, mut best) = (0.0, volume(mesh));
-        // The loop is the secant method. Its first slope is the derivative of the volume.
+        // The loop is the secant method, which starts with the derivative of the volume as the slope.
         let (mut at, mut error, mut slope) = (0.0, target - best, slope);
         for _ in 0..STEPS {
             if error.abs() <= 1e-14 * target.abs() || slope == 0.0 || !slope.is_finite() {

@@ -180,8 +180,8 @@ struct Subtree<'a> {
 
 impl Subtree<'_> {
     /// Builds the nodes of the subtree. Returns two sums over its triangles. The first sum adds up the unit normals,
-    /// each times twice the area. The second sum adds up the longest sides as vectors, by the function [`sum`]. This
-    /// function reverses vectors, so that opposite vectors do not cancel.
+    /// each times twice the area. The second sum adds up the longest sides as vectors. The function [`sum`] reverses
+    /// some of these vectors, so that opposite vectors do not cancel.
     fn build(
         self,
         triangles: &[Triangle],

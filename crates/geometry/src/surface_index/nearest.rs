@@ -59,7 +59,7 @@ impl SurfaceIndex {
 
     /// Whether a triangle is at most `radius` away from `p`. `hint` has the same meaning as for
     /// [`nearest`](Self::nearest). If a triangle is found within `radius`, `hint` is set to its index. This test is
-    /// faster than the search for the nearest point, because the first triangle within `radius` ends it.
+    /// faster than the search for the nearest point, because the test ends at the first triangle within `radius`.
     pub(crate) fn is_within(&self, p: DVec3, radius: f64, hint: &mut u32) -> bool {
         let squared = radius * radius;
         let (best, ..) = self.nearest_below(p, *hint, squared.next_up(), squared);
@@ -92,7 +92,7 @@ impl SurfaceIndex {
             triangle: hint,
         };
         self.try_triangle(p, hint, &mut best);
-        // Each child has half of the triangles of its parent, and there are less than 2^32 triangles, so the depth of
+        // Each child has half of the triangles of its parent, and there are fewer than 2^32 triangles, so the depth of
         // the tree is at most 32.
         let mut stack = [(0, 0.0); 64];
         let mut height = 1;

@@ -199,7 +199,7 @@ impl Ray {
         }
         let areas = [0, 1, 2].map(|i| {
             let area = flat[(i + 1) % 3].perp_dot(flat[(i + 2) % 3]).abs();
-            // The area overflows only if coordinates are above 1e150. It then counts as 0.
+            // The area overflows only if coordinates are above 1e150. An area that overflows counts as 0.
             if area.is_finite() { area } else { 0.0 }
         });
         let sum = areas[0] + areas[1] + areas[2];

@@ -100,7 +100,7 @@ impl<'a> Winding<'a> {
             return 0.0;
         }
         let mut angle = 0.0;
-        // Each child has half of the triangles of its parent, and there are less than 2^32 triangles, so the depth of
+        // Each child has half of the triangles of its parent, and there are fewer than 2^32 triangles, so the depth of
         // the tree is at most 32.
         let mut stack = [0_usize; 64];
         let mut height = 1;

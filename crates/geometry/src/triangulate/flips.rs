@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Source: Lawson, "Software for C1 Surface Interpolation", 1977. The flips are the same as in the crate `earcut`, in
-//! the same order and with the same tolerance. The function for this in `earcut` is not used, because it cannot be
-//! canceled and does not limit the number of flips.
+//! the same order and with the same tolerance. The flip function of `earcut` is not used, because it cannot be canceled
+//! and does not limit the number of flips.
 
 use mesh::DVec2;
 
@@ -26,7 +26,7 @@ const CHECK: usize = 1 << 16;
 /// Marks a side of the polygon in the list `mates`. Such a side belongs to only one triangle, so it has no mate.
 const NONE: u32 = u32::MAX;
 
-/// Improves triangulations, one after another. Its buffers are used again for each triangulation.
+/// Improves triangulations, one after another, and uses the same buffers for all of them.
 ///
 /// The sides of triangles are numbered: the side with the index 3 t + k begins at corner k of triangle t.
 #[derive(Default)]

@@ -24,9 +24,9 @@ pub(super) struct Limits {
     /// The smallest allowed cosine of the angle between the smoothed normal of a face of the chart and the mean normal
     /// of the chart.
     pub(super) min_cosine: f64,
-    /// The area scale of a triangle is its area in the plane, divided by its area on the surface. The area scale of
-    /// each triangle is compared with the mean scale of the chart. This is the largest allowed ratio of the larger to
-    /// the smaller of these two scales.
+    /// The largest allowed ratio between the area scale of a triangle and the mean scale of the chart: the larger of
+    /// the two scales, divided by the smaller. The area scale of a triangle is its area in the plane, divided by its
+    /// area on the surface.
     pub(super) max_stretch: f64,
 }
 
@@ -38,8 +38,8 @@ struct Allowed {
     /// their total area is at most the fraction `except` of the area of the chart.
     aspect: f64,
     except: f64,
-    /// The largest allowed mean of a ratio over the triangles of the chart, weighted by area. The ratio compares the
-    /// area scale of a triangle with the mean scale of the chart: the larger scale divided by the smaller one.
+    /// The largest allowed mean ratio between the area scale of a triangle and the mean scale of the chart. The ratio
+    /// is the larger of the two scales, divided by the smaller; the mean over all triangles is weighted by area.
     spread: f64,
 }
 

@@ -11,8 +11,8 @@ use super::grow::{Totals, grow, meetings, smooth_normals};
 use super::number;
 use super::surface::Surface;
 
-/// Two charts are joined only if their common border is long enough. Its length must be at least this fraction of the
-/// border length of the chart with the shorter border.
+/// Two charts are joined only if the length of their common border is at least this fraction of the border length of
+/// the chart with the shorter border.
 const MIN_SHARED: f64 = 0.1;
 /// A chart is small if its area is less than this fraction of the area of a neighboring chart. A small chart can be
 /// joined to this neighbor even if the angles between the two charts are larger than [`MAX_CREASE`] allows.
@@ -109,8 +109,9 @@ fn split(
     Ok([of_side(0), of_side(1)])
 }
 
-/// Joins two charts that share a border, if the joined chart is within the limits, and repeats this until no more
-/// charts can be joined. The two charts that share the largest fraction of their borders are joined first.
+/// Joins pairs of charts with a common border, until no pair can be joined within the limits. For each pair, the length
+/// of the common border is divided by the border length of the chart with the shorter border. The pairs with the
+/// largest quotients are joined first.
 fn join(
     surface: &Surface,
     smooth: &[DVec3],
@@ -118,8 +119,8 @@ fn join(
     limits: Limits,
     progress: &dyn Progress,
 ) -> Result<Vec<Chart>, Cancelled> {
-    // Identifies a chart by its lowest face id and its number of faces. A chart that changes gets more faces, so a
-    // failed attempt with the old chart does not count for the new chart.
+    // Identifies a chart by its lowest face id and its number of faces. A chart that changes gets more faces, so its
+    // key changes, and pairs that failed before are tried again.
     let key = |chart: &Chart| (chart.part.faces[0], chart.part.faces.len());
     let mut failed = BTreeSet::new();
     loop {

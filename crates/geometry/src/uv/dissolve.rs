@@ -43,7 +43,7 @@ pub(super) fn dissolve(
         let Some(faces) = charts[c].as_ref().map(|c| c.part.faces.clone()) else {
             continue;
         };
-        // The charts that would exceed the limits if they got the faces that are nearest to them.
+        // The charts that would exceed the limits if the faces nearest to them were added.
         let mut refused = BTreeSet::from([number(c), u32::MAX]);
         loop {
             let grown = grow(surface, &faces, &chart_of, &charts, &refused, progress)?;

@@ -21,8 +21,7 @@ const ROUNDNESS_WEIGHT: f64 = 0.01;
 const STRAIGHTNESS_WEIGHT: f64 = 6.0;
 const CREASE_WEIGHT: f64 = 4.0;
 const MAX_COST: f64 = 2.0;
-/// Faces count as coplanar if the angle between their normals is at most about 0.25 degrees. This is the cosine of that
-/// angle.
+/// The cosine of about 0.25 degrees. Faces count as coplanar if the angle between their normals is at most this angle.
 const COPLANAR: f64 = 1.0 - 1e-5;
 const NONE: u32 = u32::MAX;
 
@@ -34,7 +33,7 @@ pub(super) struct Meeting {
     pub(super) crease: f64,
 }
 
-/// Sums over a set of faces: the normal, the area and the length of the border.
+/// The sum of the normals, the total area and the length of the border of a set of faces.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Totals {
     /// The sum of the normals of the faces, weighted by area.

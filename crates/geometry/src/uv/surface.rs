@@ -9,8 +9,8 @@ use crate::tangent::triangles;
 /// The area of a triangle counts as zero if twice the area is at most this fraction of the square of the longest side.
 const MIN_HEIGHT: f64 = 1e-8;
 
-/// A mesh, scaled so that its bounding box has a size of 1, with the triangles, normals and areas of its faces. The
-/// number of a face is its id.
+/// A mesh, scaled so that its bounding box has a size of 1, with the triangles, normals and areas of its faces. Face
+/// numbers are face ids.
 pub(super) struct Surface<'a> {
     pub(super) mesh: &'a Mesh,
     /// The positions of the vertices.

@@ -218,7 +218,7 @@ fn curved_places_get_short_edges() {
         min: 0.01,
         max: 0.2,
     };
-    // The largest normal curvature is 4 everywhere: the length is sqrt(6 * 0.002 / 4 - 3 * 0.002^2).
+    // The largest normal curvature is 4 everywhere, so the target length is sqrt(6 * 0.002 / 4 - 3 * 0.002^2).
     let options = Options {
         length,
         ..Options::default()

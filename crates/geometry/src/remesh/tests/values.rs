@@ -66,7 +66,7 @@ fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
                 0.0
             };
             // Near the end of the slit, the texture coordinates are not linear, so interpolated values differ from the
-            // expected ones. Corners there are not compared.
+            // expected ones. Corners near the end of the slit are not compared.
             if p.y <= 0.5 - 1.0 / 16.0 || p.y >= 0.5 + 1.0 / 16.0 {
                 let expected = DVec2::new(p.x + 10.0 * shift, p.y);
                 assert!(

@@ -57,7 +57,7 @@ fn rays_meet_the_triangles_that_brute_force_finds() {
     }
 }
 
-/// Returns the number of inward passages minus the number of outward passages, and the number of all passages.
+/// Returns how often the ray enters the solid minus how often it leaves the solid, and the number of all hits.
 fn passages(index: &SurfaceIndex, origin: DVec3, direction: DVec3) -> (i64, usize) {
     let hits = index.ray_all(origin, direction);
     let inward = hits

@@ -60,10 +60,10 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
 ///
 /// The principal curvatures are the eigenvalues of a 2 x 2 curvature tensor in the tangent plane of the vertex. This
 /// plane is perpendicular to the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds ½
-/// θ l u uᵀ to the tensor, where θ is the signed dihedral angle of the edge, l is its length, and u is the unit vector
-/// along it. The sum over all edges at the vertex is divided by the [vertex area](vertex_areas). Source: Cohen-Steiner,
-/// Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Where the surface is nearly flat around the
-/// vertex, the mean of the principal curvatures is close to the mean curvature.
+/// θ l u uᵀ to the tensor. Here θ is the signed dihedral angle of the edge, l is the length of the edge, and u is the
+/// unit vector along the edge. The sum over all edges at the vertex is divided by the [vertex area](vertex_areas).
+/// Source: Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003. Where the surface is
+/// nearly flat around the vertex, the mean of the principal curvatures is close to the mean curvature.
 pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let none = [f64::NAN; 2];
     let scaled = Scaled::new(mesh);

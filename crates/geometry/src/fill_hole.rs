@@ -111,7 +111,7 @@ impl<'m> Hole<'m> {
 
     /// Returns the cost of a triangle: its area plus a shape term that grows with the deviation from an equilateral
     /// triangle. By Weitzenböck's inequality, 4 √3 times the area is at most the sum of the squared sides, so
-    /// `roundness` is at most 1. It is 1 for an equilateral triangle.
+    /// `roundness` is at most 1. The value of `roundness` is 1 for an equilateral triangle.
     fn cost(&self, i: usize, m: usize, k: usize) -> f64 {
         let (a, b, c) = (self.points[i], self.points[m], self.points[k]);
         let (ab, bc, ca) = (b - a, c - b, a - c);

@@ -60,9 +60,9 @@ impl Laplacian {
     /// Computes the Laplacian of a mesh. The rows of dead (removed) vertices have no entries.
     ///
     /// A polygon with 4 to 16 corners is divided into triangles around a virtual vertex at the mean of its corners. The
-    /// value at the virtual vertex is the mean of the values at the corners. For such a polygon, the result therefore
-    /// does not depend on a choice of diagonals. The gradient of a linear function on a flat polygon is exact. Polygons
-    /// with more than 16 corners are cut into triangles along diagonals.
+    /// value at the virtual vertex is the mean of the values at the corners. For a polygon with 4 to 16 corners, the
+    /// result therefore does not depend on a choice of diagonals. The gradient of a linear function on a flat polygon
+    /// is exact. Polygons with more than 16 corners are cut into triangles along diagonals.
     ///
     /// If any triangle is degenerate or almost degenerate, the same small length is added to the edge lengths of all
     /// triangles. A triangle is almost degenerate if the sum of two of its sides exceeds the third side by less than

@@ -37,7 +37,7 @@ const MAX_EARS: usize = 4096;
 /// The smallest number of corners for which the triangulation of a face can be canceled. Faces with fewer corners take
 /// little time.
 const MIN_CANCELLED: usize = 256;
-/// A face with more than this number of corners becomes a fan. No better triangulation is computed for such a face.
+/// A face with more than this number of corners becomes a fan, and no better triangulation is computed.
 const MAX_CORNERS: usize = 10_000_000;
 
 /// How a face is cut into triangles.
@@ -119,9 +119,10 @@ impl Cut {
 /// chapter 3). Then diagonals are flipped until the result is a constrained Delaunay triangulation.
 ///
 /// Some faces become a fan around their vertex with the lowest id: faces with more than ten million corners, and faces
-/// that cannot be cut in these ways. A face cannot be cut if its area is zero or its sides cross. A face with more than
-/// 4096 corners also becomes a fan if some of its sides overlap. In a face with n corners, where n is more than 4096,
-/// at most 1024 n diagonals are flipped. If this limit is reached, some triangles are possibly not Delaunay triangles.
+/// that can be cut neither by ear clipping nor into monotone pieces. A face cannot be cut if its area is zero or its
+/// sides cross. A face with more than 4096 corners also becomes a fan if some of its sides overlap. In a face with n
+/// corners, where n is more than 4096, at most 1024 n diagonals are flipped. If this limit is reached, some triangles
+/// are possibly not Delaunay triangles.
 ///
 /// # Examples
 ///
@@ -321,7 +322,7 @@ fn with_sorted_corners(mut triangle: Triangle) -> Triangle {
     triangle
 }
 
-/// Inserts the corners that no triangle uses. If such corners lie between two corners a and b of the polygon, the
+/// Inserts the corners that no triangle uses. If unused corners lie between two corners a and b of the polygon, the
 /// triangle with the side from a to b is split.
 ///
 /// ```text
@@ -370,9 +371,9 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let Some(&c) = triangles[t].iter().find(|&&c| c != a && c != b) else {
             continue;
         };
-        // The old triangle is split into several triangles, which all have the corner c. The first of the new triangles
-        // has the side from c to a. This triangle replaces the old triangle in the list. The last of the new triangles
-        // has the side from b to c.
+        // The old triangle is split into several triangles, which all have the corner c. The first of the new
+        // triangles, which has the side from c to a, replaces the old triangle in the list. The last of the new
+        // triangles has the side from b to c.
         let mut from = a;
         let mut part = t;
         while from != b {
@@ -461,9 +462,9 @@ mod tests {
     fn invalid_triangulations_are_detected() {
         assert!(is_triangulation(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
         for wrong in [
-            // Each of these lists has a different fault. The faults are, in order: too few triangles; a duplicate
-            // triangle; crossing diagonals; a triangle that contains a corner twice; two triangles at one side of the
-            // polygon.
+            // Each of these lists of triangles has a different fault. The faults are, in order: too few triangles; a
+            // duplicate triangle; crossing diagonals; a triangle that contains a corner twice; two triangles at one
+            // side of the polygon.
             vec![[0, 1, 2], [0, 2, 4]],
             vec![[0, 1, 2], [0, 2, 4], [0, 2, 4]],
             vec![[0, 1, 2], [1, 2, 3], [0, 3, 4]],

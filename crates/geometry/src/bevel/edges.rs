@@ -255,8 +255,8 @@ impl<'m> Bevel<'m> {
         let weight = |length: f64| {
             let weight = self.width / (sine * length);
             // The weight of an edge is 1 or more if both edges of the corner are almost on one line, or if this edge is
-            // too short. Such a weight is replaced by 0. If the weights of both edges are 0, the point gets the values
-            // of the old vertex.
+            // too short. A weight of 1 or more is replaced by 0. If the weights of both edges are 0, the point gets the
+            // values of the old vertex.
             if weight.abs() < 1.0 { weight } else { 0.0 }
         };
         Some(Point {

@@ -45,8 +45,8 @@ pub struct Bisection {
 /// along the plane; a concave face can be cut several times. The parts of a face share the new edges, so the mesh
 /// remains connected. A vertex counts as on the plane if its distance from the plane is at most the larger of two
 /// tolerances. One tolerance is 1e-9 times the largest extent of the mesh. The other tolerance is 1e-14 times the
-/// largest absolute coordinate of the mesh and `point`. A vertex on the plane is not moved, and an edge that ends at
-/// such a vertex is not split. The side of the plane on which a vertex lies is determined once, and is the same for all
+/// largest absolute coordinate of the mesh and `point`. A vertex on the plane is not moved, and an edge with an end on
+/// the plane is not split. The side of the plane on which a vertex lies is determined once, and is the same for all
 /// edges and faces at the vertex. The crossing point of an edge does not depend on which end of the edge comes first.
 ///
 /// Ids change as follows. When an edge is split, the part at the origin of its first half-edge keeps the id of the
@@ -65,9 +65,8 @@ pub struct Bisection {
 /// the face in front of the plane is cut off separately. If two faces share both edges that the plane crosses, each
 /// face gets a separate edge between the same two crossing points.
 ///
-/// A face that lies in the plane counts as in front of the plane if its normal points to the back of the plane, because
-/// the solid that the face bounds then lies in front of the plane. Any other face in the plane counts as behind the
-/// plane.
+/// If the normal of a face in the plane points to the back of the plane, the face counts as in front of the plane,
+/// because it bounds a solid in front of the plane. Any other face in the plane counts as behind the plane.
 ///
 /// # Errors
 ///

@@ -4,8 +4,8 @@
 //! have six edges, and move vertices along the surface. Source: Botsch, Kobbelt, "A Remeshing Approach to
 //! Multiresolution Modeling", 2004. Each movement of a vertex ends on the original surface, at a point of the line or
 //! chart (a region between lines) to which the vertex belongs. Only a vertex that a split or a collapse has placed can
-//! be off the original surface. Such a vertex is on the surface after its first movement. If all of its movements are
-//! refused, the vertex stays off the surface.
+//! be off the original surface, and only until its first movement. If all movements of this vertex are refused, the
+//! vertex stays off the surface.
 //!
 //! ```text
 //!     +---+-----------+            +-----+-----+

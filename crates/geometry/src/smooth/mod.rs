@@ -47,7 +47,7 @@ pub enum Method {
         /// are the eigenvalues of its normalized Laplacian, which are between 0 and 2.
         pass_band: f64,
     },
-    /// Solves (M + time L) x' = M x for the new positions x', where x are the old positions, L is the
+    /// Solves (M + time L) x' = M x for the new positions x'. Here x are the old positions, L is the
     /// [`Laplacian`](crate::Laplacian), and M is the diagonal matrix of the vertex areas. Source: Desbrun, Meyer,
     /// Schröder, Barr, "Implicit Fairing of Irregular Meshes Using Diffusion and Curvature Flow", 1999.
     Implicit {

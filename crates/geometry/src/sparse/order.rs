@@ -145,9 +145,9 @@ impl Quotient {
         }
     }
 
-    /// Eliminates a variable with the lowest degree. Also eliminates those of its neighbors that then have no neighbors
-    /// outside the new element (the clique that replaces the variable). `remaining` is the number of rows that are not
-    /// eliminated. Returns the number of eliminated rows.
+    /// Eliminates a variable with the lowest degree. Also eliminates each neighbor of the variable that then has no
+    /// neighbors outside the new element (the clique that replaces the variable). `remaining` is the number of rows
+    /// that are not eliminated. Returns the number of eliminated rows.
     fn eliminate(&mut self, remaining: usize) -> usize {
         let p = self.buckets.lowest();
         self.buckets.remove(p, self.degree[p as usize]);
@@ -252,7 +252,7 @@ impl Quotient {
         (u32::try_from(degree.min(most)).expect("limited"), hash)
     }
 
-    /// Merges those members of the new element that have the same neighbors as each other.
+    /// Merges members of the new element that have the same neighbors.
     fn merge_equal(&mut self) {
         let mut hashes = std::mem::take(&mut self.hashes);
         hashes.sort_unstable();

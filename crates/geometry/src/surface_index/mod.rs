@@ -193,10 +193,10 @@ impl SurfaceIndex {
 }
 
 impl Triangle {
-    /// Returns the barycentric coordinates of the point nearest to `p` on the triangle. They are the weights of the
-    /// three corners, are not negative, and add up to 1, up to rounding. The weight of a corner is exactly 0 if the
-    /// nearest point was found on the side opposite this corner. In a zero-area triangle, at most two of the weights
-    /// differ from 0: the point lies on one of the sides.
+    /// Returns the barycentric coordinates of the point nearest to `p` on the triangle. The coordinates are the weights
+    /// of the three corners. They are not negative, and add up to 1, up to rounding. The weight of a corner is exactly
+    /// 0 if the nearest point was found on the side opposite this corner. In a zero-area triangle, at most two of the
+    /// weights differ from 0: the point lies on one of the sides.
     pub fn barycentric(&self, p: DVec3) -> [f64; 3] {
         triangle::nearest_weights(p, &self.positions)
     }

@@ -12,7 +12,7 @@ use super::{Node, SurfaceIndex, unit_scale};
 /// The winding number is the signed solid angle of the surface as seen from the point, divided by 4π. For a closed
 /// surface that faces outward, the winding number is 1 inside and 0 outside. If the surface has several closed parts,
 /// which can be nested or overlap, the winding numbers of the parts are added. For an open surface or a list of
-/// unconnected triangles, the winding number changes smoothly near the gaps. For such a surface, a point is best
+/// unconnected triangles, the winding number changes smoothly near the gaps. For a surface with gaps, a point is best
 /// counted as inside if its winding number is above 1/2: Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside
 /// Segmentation using Generalized Winding Numbers", 2013.
 ///

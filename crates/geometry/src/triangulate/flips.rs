@@ -23,7 +23,8 @@ use super::{Triangle, with_sorted_corners};
 const MAX_FLIPS: usize = 1024;
 /// The number of diagonals that are examined between two checks for cancellation.
 const CHECK: usize = 1 << 16;
-/// Marks a side of the polygon in the list `mates`. Such a side belongs to only one triangle, so it has no mate.
+/// Marks a side of the polygon in the list `mates`. A side of the polygon belongs to only one triangle, so it has no
+/// mate.
 const NONE: u32 = u32::MAX;
 
 /// Improves triangulations, one after another, and uses the same buffers for all of them.

@@ -34,8 +34,8 @@ pub(super) struct Limits {
 struct Allowed {
     /// The largest allowed ratio between area scales; see [`Limits::max_stretch`].
     stretch: f64,
-    /// The largest allowed aspect (see [`Stretch`](super::Stretch)). Some triangles can exceed this limit, as long as
-    /// their total area is at most the fraction `except` of the area of the chart.
+    /// The largest allowed aspect (see [`Stretch`](super::Stretch)). Some triangles can exceed this limit if their
+    /// total area is at most the fraction `except` of the area of the chart.
     aspect: f64,
     except: f64,
     /// The largest allowed mean ratio between the area scale of a triangle and the mean scale of the chart. The ratio

@@ -119,8 +119,8 @@ fn number(index: usize) -> u32 {
     u32::try_from(index).expect("elements have 32-bit ids")
 }
 
-/// Whether the edge of a half-edge is at the border of a chart. Such an edge is a boundary edge of the mesh, or its
-/// texture coordinates differ between the two sides.
+/// Whether the edge of a half-edge is at the border of a chart. An edge is at the border of a chart if it is a boundary
+/// edge of the mesh, or if its texture coordinates differ between its two sides.
 pub fn is_border(mesh: &Mesh, uvs: &[DVec2], h: HalfEdgeId) -> bool {
     let twin = h.twin();
     if mesh.face(h).is_none() || mesh.face(twin).is_none() {

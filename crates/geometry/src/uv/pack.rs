@@ -21,8 +21,8 @@ pub struct Packed {
     /// The number of charts with zero area on the surface or in the texture. All texture coordinates of these charts
     /// become (0, 0).
     pub n_flat: usize,
-    /// The number of charts that overlap themselves. For the packing, the shape of such a chart is replaced by its
-    /// convex hull.
+    /// The number of charts that overlap themselves. For the packing, the shape of a chart that overlaps itself is
+    /// replaced by its convex hull.
     pub n_overlapping: usize,
     /// The area of all charts together, as a fraction of the area of the page.
     pub coverage: f64,
@@ -125,8 +125,8 @@ pub fn pack(
     let mut atlas = pack_shapes(&shapes, page, progress)?;
     let n_known = packed.n_overlapping;
     for (shape, output) in shapes.iter_mut().zip(&atlas.meshes) {
-        // If a chart overlaps itself, the packing has cut it into several charts. The convex hull of such a chart is
-        // packed instead.
+        // If a chart overlaps itself, the packing has cut it into several charts. The convex hull of a chart that
+        // overlaps itself is packed instead.
         if n_charts(output) != 1 {
             *shape = shape.hull().0;
             packed.n_overlapping += 1;
@@ -244,8 +244,9 @@ impl Shape {
         let all = triangles.iter().map(|triangle| triangle.map(&place));
         let total: f64 = all.clone().map(|t| area(t).abs()).sum();
         for points in all {
-            // Rounding to 32-bit numbers can turn a thin triangle over. Such a triangle is left out of the shape of the
-            // chart. Its corners still get positions, because they move together with the whole chart.
+            // Rounding to 32-bit numbers can turn a thin triangle over. A triangle that rounding turns over is left out
+            // of the shape of the chart. The corners of this triangle still get positions, because they move together
+            // with the whole chart.
             let before = (points[1] - points[0]).perp_dot(points[2] - points[0]);
             if area(points) * before.signum() <= MIN_AREA * total {
                 continue;
@@ -274,11 +275,11 @@ impl Shape {
         (self.points.len() - 1) as u32
     }
 
-    /// If the shape has many triangles, replaces it by its convex hull in two cases. In the first case, the shape is
-    /// convex. In the second case, the shape certainly overlaps itself, because the sum of the areas of its triangles
-    /// is larger than the area of the hull. Returns whether the second case applies. The replacement saves time: the
+    /// Replaces the shape by its convex hull if the shape has many triangles and is convex or certainly overlaps
+    /// itself. The shape certainly overlaps itself if the sum of the areas of its triangles is larger than the area of
+    /// the hull. Returns whether the shape was replaced because it overlaps itself. The replacement saves time: the
     /// crate `uvunwrap` compares all triangles whose bounding boxes overlap. In the triangulation of a face with many
-    /// corners, these can be almost all pairs of triangles.
+    /// corners, almost all pairs of bounding boxes can overlap.
     fn simplify(&mut self) -> bool {
         if self.indices.len() / 3 <= MAX_CONVEX {
             return false;

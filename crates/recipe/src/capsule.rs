@@ -61,7 +61,7 @@ pub fn capsule(
     text + "    ],\n)\n"
 }
 
-/// Returns the text of a step.
+/// Returns the text with which a recipe runs a step.
 fn line(step: &RecipeStep, value: &Value) -> String {
     let mut fields = Vec::new();
     if step.label != step.name {

@@ -44,8 +44,8 @@ pub fn fields_in(root: &Json, part: &Json) -> Vec<FieldDoc> {
 }
 
 /// Returns the fields of a schema. If `with_variants` is set, the description of each field whose type is an
-/// enumeration contains the variants of the type. The fields of these variants are described without variants.
-/// Otherwise, the description would never end, because a selection can contain other selections.
+/// enumeration contains the variants of the type. The fields of these variants are described without variants. Without
+/// this limit, the description would never end, because a selection can contain other selections.
 fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     let required: Vec<&str> = schema.required().collect();
     let described = |name: &str| {

@@ -19,7 +19,7 @@ use std::fmt::Write as _;
 
 use crate::source::Source;
 
-/// Renders diagnostics with the lines that they refer to, in the order of the text.
+/// Renders diagnostics in the order of the text, each with the lines of the text to which it refers.
 ///
 /// `sources` are the sources of the recipe. If `colours` is set, the output contains ANSI color codes.
 pub fn render(sources: &[Source], diagnostics: &[Diagnostic], colours: bool) -> String {

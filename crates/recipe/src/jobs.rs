@@ -5,15 +5,15 @@
 //!                          thread 2: job 5
 //! ```
 //!
-//! Jobs run on the same threads as the parallel loops inside them. As long as every thread has a job, no thread is
-//! idle. Each loop then runs entirely on the thread of its job, without the cost of distributing its work. When no more
-//! jobs can start, idle threads help with the parallel loops of the last jobs. If there is not enough memory for the
-//! next job, a thread without a job does not wait for memory. A waiting thread could not help with the loops of other
-//! jobs. Instead, the thread returns to the thread pool. When a thread completes a job, memory becomes free. If there
-//! is now enough memory, the thread that completed the job starts the next job. This thread also wakes another thread
-//! if the limits allow one more job. While a job waits for a part of its parallel loop, the thread of the job does not
-//! start another job. Therefore, a job never has to wait until another job on the same thread has ended. A job also
-//! cannot deadlock on a lock that a suspended job on the same thread holds.
+//! Jobs run on the same threads as the parallel loops inside them. While every thread has a job, each parallel loop
+//! runs entirely on the thread of its job, without the cost of distributing its work. When no more jobs can start, idle
+//! threads help with the parallel loops of the last jobs. If there is not enough memory for the next job, a thread
+//! without a job returns to the thread pool. A thread that waited for memory could not help with the parallel loops of
+//! other jobs. A thread that has completed a job frees the memory of the job. If the limits then allow the next job,
+//! the same thread starts it. If the limits allow one more job, the thread also wakes another thread. While a job waits
+//! for a part of its parallel loop, the thread of the job does not start another job. Therefore, a job never has to
+//! wait until another job on the same thread has ended. A job also cannot deadlock on a lock that a suspended job on
+//! the same thread holds.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -62,7 +62,7 @@ pub struct Jobs<B, S, W> {
     pub count: usize,
     /// The function that returns the estimated peak memory of a job, in bytes.
     pub bytes: B,
-    /// The function that returns `true` once no more jobs are to be started.
+    /// If this function returns `true`, no more jobs are started.
     pub stop: S,
     /// The function that runs a job.
     pub work: W,
@@ -141,7 +141,8 @@ fn deliver<T>(
 }
 
 thread_local! {
-    /// Whether this thread runs a job. This is also true while the thread waits for a part of its job.
+    /// Whether this thread has a job. A thread that waits until other threads have done parts of its job also has a
+    /// job.
     static RUNS_JOB: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -171,12 +172,11 @@ where
     W: Fn(usize) -> T + Sync,
 {
     /// Runs jobs until no job can start. After starting a job, wakes another thread if the limits allow one more job.
-    /// If `is_broadcast` is set, all threads were started together. A thread therefore does not wake another thread
-    /// when it starts its first job.
+    /// If `is_broadcast` is set, all threads were started together, so this thread wakes no other thread when it starts
+    /// its first job.
     fn work<'s>(&'s self, scope: &Scope<'s>, is_broadcast: bool) {
-        // This thread already runs a job. This job is waiting until other threads have finished their parts of its
-        // parallel loop. If the thread started another job now, the waiting job could not continue until the other job
-        // has ended.
+        // A thread that already has a job does not start another job. The first job waits until other threads have done
+        // parts of its parallel loop, and could not continue before the second job has ended.
         if RUNS_JOB.get() {
             return;
         }
@@ -196,8 +196,7 @@ where
             state.running -= 1;
             state.used -= started.bytes;
             drop(state);
-            // Sending fails only if the calling thread has panicked. After a panic of the calling thread, the result is
-            // not needed.
+            // Sending fails only if the calling thread has panicked. In that case, the result is not needed.
             let _ = self.sender.send((started.job, end));
         }
     }
@@ -229,7 +228,8 @@ where
     }
 
     /// Returns the memory of the next job, in bytes. Returns `None` if there is no next job, or if the limits do not
-    /// allow it to start. If a job needs more memory than the budget, it counts as if it needed exactly the budget.
+    /// allow the next job to start. If a job needs more memory than the budget, it counts as if it needed exactly the
+    /// budget.
     fn admissible(&self, state: &State) -> Option<u64> {
         if state.next >= self.jobs.count || state.running >= self.max_running {
             return None;
@@ -293,10 +293,9 @@ const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. For each step, the forecast can have an upper limit for
-    /// the memory that the meshes take after the step. If all steps have such a limit, the estimate is the size of the
-    /// input files plus the largest of these limits. Otherwise, the estimate is eight times the size of the input
-    /// files. However, the estimate is never less than the memory that the meshes certainly take after any of the
-    /// steps.
+    /// the memory that the meshes take after the step. If all steps have an upper limit, the estimate is the size of
+    /// the input files plus the largest of these limits. If a step has no upper limit, the estimate is eight times the
+    /// size of the input files, but not less than the memory that the meshes certainly take after any of the steps.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

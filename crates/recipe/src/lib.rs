@@ -7,8 +7,8 @@
 //!
 //! [`read`] turns text into operations of a [`Registry`](op::Registry), and reports all errors at once. [`read`] also
 //! checks each value against the schema of its type (module [`schema_check`]), and then deserializes the value.
-//! [`check`] plans all steps without computing geometry. It forecasts the element counts and the memory, and checks
-//! files and names. It reports an error if the meshes certainly take more memory than the budget. [`run`] runs the
+//! [`check`] plans all steps without computing geometry, forecasts the element counts and the memory, and checks files
+//! and names. If the meshes certainly take more memory than the budget, [`check`] reports an error. [`run`] runs the
 //! steps. Outputs are written only if every step succeeds and every expectation holds.
 
 pub mod capsule;

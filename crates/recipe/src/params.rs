@@ -171,8 +171,8 @@ impl Param {
                 Ok(value(ValueKind::String(text.clone())))
             }
             (Self::Path { .. }, ValueKind::String(text)) => {
-                // An absolute path inside the folder `f.to` becomes relative, too. Thus absolute and relative paths of
-                // the same file become equal.
+                // An absolute path inside the folder `f.to` becomes relative, too, so that absolute and relative paths
+                // of the same file become equal.
                 let rebased = |f: Rebase| {
                     let path = rebase_path(f.store, text, f.from, f.to);
                     below(&path, f.to).unwrap_or(path)

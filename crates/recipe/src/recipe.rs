@@ -150,8 +150,8 @@ pub struct RecipeStep {
     /// the name as written in the recipe.
     pub name: String,
     /// The label, which is shown to users and which seeds random choices. The label has three parts, as in
-    /// `clean/Weld#2`: the names of the calls that contain the step, the id of the step, and the numbers of the
-    /// repetitions that contain the step. If the step has no id, the second part is the name of the operation.
+    /// `clean/Weld#2`: the names of the calls around the step, the id of the step, and the numbers of the repetitions
+    /// around the step. If the step has no id, the second part is the name of the operation.
     pub label: String,
     /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,
@@ -189,8 +189,8 @@ impl RecipeStep {
             .map(|on| on.iter().map(|(name, _)| name.clone()).collect())
     }
 
-    /// Returns the step for the repetition number `turn` of the next `Repeat` around it. The number is added to the
-    /// label.
+    /// Returns the step for the repetition number `turn` of a `Repeat` that contains the step, and adds this number to
+    /// the label. If several `Repeat`s contain the step, this function must be called for the innermost `Repeat` first.
     pub(crate) fn in_turn(mut self, turn: u32) -> Self {
         self.turns.insert(0, turn);
         let turns: Vec<String> = self.turns.iter().map(u32::to_string).collect();
@@ -285,7 +285,7 @@ impl Recipe {
                 .map(|s| s.canonical())
                 .unwrap_or_default();
             // A label that is only the name of the operation is hashed as `None`. With this rule, the digest is the
-            // same as in older versions.
+            // same as in older versions of the program.
             let id = (step.label != step.name).then_some(&step.label);
             let line = format!("{id:?} {:?} {} {canonical}\n", step.on_names(), step.name);
             hasher.update(line.as_bytes());

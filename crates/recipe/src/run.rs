@@ -152,12 +152,12 @@ pub struct StepError {
     pub help: Option<&'static str>,
 }
 
-/// The run ends early, because it was canceled or because a failure was reported.
+/// The error that ends a run early. The cancellation or the failure that caused it is already recorded.
 struct Stopped;
 
 impl Runner<'_> {
     fn run(&mut self, listener: &dyn Listener) {
-        // If the run ends early, the reason has already been reported, so the result is ignored.
+        // If the run ends early, the cancellation or the failure is already recorded, so the returned error is ignored.
         let _ = self.run_steps(listener);
         if self.failures.is_empty()
             && !self.cancelled
@@ -271,8 +271,8 @@ impl Runner<'_> {
     }
 
     /// Advances `scene` to the scene before the step with the index `to`. All earlier steps must be done. If the cache
-    /// has stored a scene that is later than `scene` and not later than the target, loads the latest such scene. Then
-    /// runs the remaining steps before `to` again.
+    /// has stored scenes that are later than `scene` and not later than the target, loads the latest of them. Runs the
+    /// remaining steps before `to` again.
     fn advance_scene(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
         if self.scene_index < to
             && let Some(session) = &mut self.session
@@ -426,7 +426,8 @@ impl Runner<'_> {
         let is_current = self.scene_index == self.n_done;
         let known = self.session.as_ref().and_then(|s| s.digest());
         if known.is_none() && !is_current && !self.cancelled {
-            // If a step fails while it runs again, `apply` adds the failure to `failures`, so the result is ignored.
+            // If a step fails while it runs again, `apply` adds the failure to `failures`, so the returned error is
+            // ignored.
             let _ = self.advance_scene(self.n_done, &Silent);
         }
         let is_current = self.scene_index == self.n_done;

@@ -276,8 +276,8 @@ fn reference<T: JsonSchema>(defined: &mut SchemaGenerator) -> Json {
     defined.subschema_for::<T>().to_value()
 }
 
-/// Extends the schema of each enumeration that has the keyword `x-shorthand`. In a value of such an enumeration, the
-/// name of the variant can be omitted, so the contents of the variants are added as alternatives.
+/// Extends the schema of each enumeration that has the keyword `x-shorthand`. Values of these enumerations can omit the
+/// name of the variant, so the contents of the variants are added as alternatives.
 fn allow_shorthand(schema: &mut Json) {
     match schema {
         Json::Object(object) => {

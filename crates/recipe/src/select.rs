@@ -1,4 +1,4 @@
-//! Selections that are not part of a recipe. Such selections are read from text and resolved on a mesh.
+//! Reads selections that are not part of a recipe from text, and resolves them on a mesh.
 //!
 //! ```text
 //! "Sharp(above: 30)"   exists only for edges                  ---> edges

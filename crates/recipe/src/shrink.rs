@@ -1,5 +1,5 @@
 //! Reduces a scene on which a step fails. Removes objects and faces as long as the step still fails with the same
-//! message. The numbers in the message are allowed to change.
+//! message. Messages that differ only in their numbers count as the same message.
 //!
 //! Faces are removed in blocks. The size of the blocks is halved until each block is a single face, as in the algorithm
 //! ddmin. Source: Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their
@@ -119,7 +119,7 @@ impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
                 };
                 is_smaller |= is_done;
                 // A removal compacts the mesh, which gives the ids of the removed faces to the faces after them.
-                // Therefore, the next block starts at the same id.
+                // Therefore, the block after a removed block starts at the same id.
                 first = if is_done { first } else { last };
             }
             // Single faces are tried again, because a face can become removable after other faces were removed.

@@ -208,8 +208,8 @@ fn fix(expectation: &Value, found: Option<&ActualValue>) -> Result<Fix, String> 
             shown: format!("{} is written", golden.display()),
         }),
         ActualValue::Position { at, tolerance } => {
-            // If every coordinate deviates by at most half of the tolerance, the distance is within the tolerance. Such
-            // coordinates need no edit.
+            // If every coordinate deviates by at most half of the tolerance, the distance is within the tolerance.
+            // Therefore, only a coordinate that deviates by more than half of the tolerance is edited.
             let edits = vector(recorded("is")?, at.to_array(), 0.5 * tolerance)?;
             Fix::several(edits, format!("({}, {}, {})", at.x, at.y, at.z))
         }

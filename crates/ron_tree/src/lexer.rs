@@ -112,8 +112,8 @@ pub struct Lexer<'s> {
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// A number of hashes. The rest of the text contains no end of a raw string with this number of hashes or more, so
-    /// the lexer does not search for such an end again. This keeps the time for lexing linear.
+    /// A number of hashes. After the current position, no raw string with this number of hashes or more is closed. The
+    /// lexer therefore does not search for the end of these raw strings again, which keeps the time for lexing linear.
     unclosed_hashes: usize,
 }
 

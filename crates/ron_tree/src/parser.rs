@@ -1,8 +1,9 @@
 //! Parses a source text into a tree of values. A source text with errors also becomes a tree.
 //!
 //! A mistake usually gives one diagnostic, and parsing continues after it. To recover from a bracket error, the parser
-//! makes three assumptions: only one bracket is missing or mistyped, line breaks and indentation are right, and each
-//! item of a list starts on its own line. The module [`recovery`](super::recovery) implements the recovery.
+//! assumes that only one bracket is missing or mistyped. The parser also assumes that line breaks and indentation are
+//! right, and that each item of a list starts on its own line. The module [`recovery`](super::recovery) implements the
+//! recovery.
 
 use super::brackets::OpenBracket;
 use super::lexer::{Bracket, Lexer, Token, TokenKind};
@@ -190,7 +191,7 @@ impl<'s> Parser<'s> {
     /// Reports an error about the token `current`, unless an error about this token was already reported.
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         let start = self.current.span.start;
-        // `value` always reports an unclosed string or a bad character, so no other error is reported about such a
+        // `value` always reports an unclosed string or a bad character, so no other error is reported about the same
         // token.
         let is_bad = matches!(
             self.current.kind,

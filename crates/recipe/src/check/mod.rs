@@ -37,14 +37,12 @@ pub struct StepForecast {
     pub bytes: Range,
     /// The data that the step will certainly lose.
     pub losses: Vec<Loss>,
-    /// The data that the step possibly loses. Losses that depend on the values of points and attributes are not listed.
-    /// Examples are losses because of coincident vertices or of numbers that are not finite.
+    /// The data that the step possibly loses. Losses that depend on the values of points and attributes are not listed,
+    /// for example losses that are caused by coincident vertices or by numbers that are not finite.
     pub possible_losses: Vec<Loss>,
-    /// How many entries of [`Forecast::inputs`] come from this step and the steps before it. These entries come first
-    /// in the list.
+    /// This step and the steps before it read the first `n_inputs` files of [`Forecast::inputs`].
     pub n_inputs: usize,
-    /// How many entries of [`Forecast::outputs`] come from this step and the steps before it. These entries come first
-    /// in the list.
+    /// This step and the steps before it write the first `n_outputs` files of [`Forecast::outputs`].
     pub n_outputs: usize,
 }
 
@@ -302,8 +300,8 @@ fn missing_file(files: &Files, path: &Path, span: Span) -> Option<Diagnostic> {
     (!files.store.is_file(path)).then(|| Diagnostic::error(span, message))
 }
 
-/// The total counts and sizes of all meshes of a plan. If a step only adds objects, only the new objects are counted.
-/// Unchanged objects therefore cost no time.
+/// The element counts and the memory of all meshes of a plan, added up. If a step only adds objects, only the new
+/// objects are counted, so that unchanged objects cost no time.
 struct Totals {
     /// The number of objects that have been counted.
     objects: usize,

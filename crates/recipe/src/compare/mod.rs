@@ -1,8 +1,8 @@
 //! Compares two scenes.
 //!
 //! Objects with the same name are compared. If each scene has exactly one object without a partner of the same name,
-//! these two objects are compared, too. This is useful because a mesh that is alone in a file often has the name of the
-//! file. Such objects have different names in different files.
+//! these two objects are compared, too. If a file contains only one mesh, the mesh often has the name of the file. Thus
+//! the same mesh can have different names in two files.
 
 mod attributes;
 mod meshes;

@@ -20,7 +20,7 @@ pub(crate) struct PlacedSubject<'a> {
 
 impl<'a> PlacedSubject<'a> {
     /// Places all objects in scene space. `other` is the name of the object with which the expectation compares the
-    /// checked meshes. This object must have exactly one instance.
+    /// checked meshes. The object `other` must not have several instances.
     ///
     /// # Errors
     ///
@@ -45,8 +45,8 @@ impl<'a> PlacedSubject<'a> {
             let message = format!("expected 1 instance of \"{other}\", found {n}");
             return Err(message.into());
         }
-        // Every object has at least one instance, so a name without instances is not the name of an object. Such a name
-        // stays in the list `on`, so that the check reports the unknown name.
+        // Every object has at least one instance, so a name without instances is not the name of an object. The check
+        // reports this name as unknown, because the name stays in `on`.
         let on = subject.on.map(|on| {
             let names = on.iter().flat_map(|name| {
                 let of_object = instances.iter().filter(|i| i.object.name == *name);

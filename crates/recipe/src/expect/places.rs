@@ -20,8 +20,8 @@ impl Expectation {
             Self::Same { .. } | Self::DistanceTo { .. } | Self::SymmetricUnder { .. }
         );
         if compares && !subject.scene.graph().is_empty() {
-            // These expectations compare instances in scene space, but locations must be in object space. Therefore no
-            // locations are returned.
+            // In a scene with nodes, comparisons use instances in scene space, but locations must be in object space.
+            // Therefore no locations are returned.
             return places;
         }
         for (object, mesh) in subject.meshes().unwrap_or_default() {

@@ -84,10 +84,10 @@ impl<'m> PositionIndex<'m> {
         limit
     }
 
-    /// Matches the vertices of `other` with vertices of this mesh, in the order of ids. Each vertex v is matched with a
-    /// vertex w that is not matched yet: the one that is nearest to the point `image(v)`. The distance from w to this
-    /// point must not exceed the tolerance. The item at index v of the returned list is the match of v. Returns `None`
-    /// if the meshes have different numbers of vertices, or if a vertex has no match.
+    /// Matches the vertices of `other` with vertices of this mesh, in the order of ids. Each vertex v of `other` is
+    /// matched with the vertex w that is nearest to the point `image(v)` and is not matched yet. The distance from w to
+    /// `image(v)` must not exceed the tolerance. The item at index v of the returned list is the match of v. Returns
+    /// `None` if the meshes have different numbers of vertices, or if a vertex has no match.
     pub(super) fn matching(
         &self,
         other: &Mesh,

@@ -20,7 +20,7 @@ pub trait Reader: Sync {
     ///
     /// # Errors
     ///
-    /// Returns a [`Violation`] if the file cannot be read. Its message gives the path and the reason.
+    /// If the file cannot be read, returns a [`Violation`] whose message gives the path and the reason.
     fn scene(&self, path: &Path, files: &Files) -> Result<Scene, Violation>;
 
     /// Compares the pixels of two PNG files, each given by its path and bytes. Returns a description of the differences
@@ -28,7 +28,7 @@ pub trait Reader: Sync {
     ///
     /// # Errors
     ///
-    /// Returns a [`Violation`] if one of the files cannot be read. Its message gives the path and the reason.
+    /// If one of the files cannot be read, returns a [`Violation`] whose message gives the path and the reason.
     fn compare_pictures(
         &self,
         found: (&Path, &[u8]),
@@ -288,7 +288,7 @@ impl<'a> Subject<'a> {
         check_position(found, is, tolerance, || v.to_string())
     }
 
-    /// Returns the polylines of the object that has polylines. There must be exactly one such object.
+    /// Returns the polylines of the only object that has polylines. Fails unless exactly one object has polylines.
     pub(super) fn polylines(&self) -> Result<&'a [Vec<DVec3>], Violation> {
         let objects = self.objects()?;
         let lines: Vec<&Vec<Vec<DVec3>>> = objects

@@ -5,8 +5,8 @@ use ron_tree::{Value, ValueKind, parse};
 use super::Expectation;
 
 impl Expectation {
-    /// Returns the expectation in one line and in the form in which it is written in a recipe. Optional values are
-    /// written without `Some(..)`, and fields with default values are omitted.
+    /// Returns the expectation as it is written in a recipe, in one line. Optional values are written without
+    /// `Some(..)`, and fields with default values are omitted.
     pub(super) fn as_written(&self) -> String {
         let canonical = self.to_string();
         let mut value = parse(&canonical).value;

@@ -7,9 +7,9 @@
 //! If(param: "mode", is: Fast, steps: [..])               runs the steps if the parameter equals `is`
 //! ```
 //!
-//! When a recipe is read, such a step is replaced by the steps inside it. A called recipe works on the current scene,
-//! reads files from its own folder, and can use only its own parameters and ids. The expectations of a called recipe
-//! are checked after the steps of the called recipe.
+//! When a recipe is read, a step that contains steps is replaced by the steps inside it. A called recipe works on the
+//! current scene, reads files from its own folder, and can use only its own parameters and ids. The expectations of a
+//! called recipe are checked after the steps of the called recipe.
 
 use std::path::Path;
 
@@ -46,8 +46,8 @@ impl Reader<'_, '_> {
     /// Replaces a step that contains other steps by the steps inside it.
     pub(super) fn flow(&mut self, kind: Kind, mut value: Value) -> Vec<Draft> {
         let is_envelope = matches!(value.kind, ValueKind::Struct(_));
-        // The inner steps are taken out of `value`. The inner steps are read later like all steps, and their parameters
-        // are substituted then.
+        // The inner steps are taken out of `value`, because they are read later like all steps. Their parameters are
+        // substituted when they are read.
         let bodies = ["steps", "otherwise"].map(|field| {
             let run = if is_envelope {
                 value.field_mut("run")

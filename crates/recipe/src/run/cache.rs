@@ -54,8 +54,8 @@ pub trait CachedRun {
     /// Whether the step with the index `index` leaves the scene unchanged. Indices start at 0.
     fn keeps_scene(&self, index: usize) -> bool;
 
-    /// Whether the cache has a record that an expectation holds for the current scene. Such an expectation need not be
-    /// checked again.
+    /// Whether the cache has a record that an expectation holds for the current scene. If the cache has this record,
+    /// the expectation is not checked again.
     fn is_known_to_hold(&mut self, placed: &RecipeExpectation, files: &Files) -> bool;
 
     /// Records that an expectation holds for the current scene.

@@ -16,7 +16,7 @@ pub trait Listener: Progress {
     fn step_begins(&self, _number: usize, _label: &str) {}
     /// Called when a step is done.
     fn step_done(&self, _number: usize, _done: &StepDone) {}
-    /// Whether the run computes the digest of the scene after each step. This computation is slow for large scenes.
+    /// Whether the run computes the digest of the scene after each step, which is slow for large scenes.
     fn wants_digests(&self) -> bool {
         false
     }
@@ -26,8 +26,8 @@ pub trait Listener: Progress {
         false
     }
     /// Called with the scene after each step if [`wants_scenes`](Self::wants_scenes) returns true. A clone of the scene
-    /// shares its meshes with the run. As long as such a clone exists, a step that changes a shared mesh first copies
-    /// the mesh.
+    /// shares its meshes with the run. As long as the clone exists, a step that changes a shared mesh first copies the
+    /// mesh.
     fn scene_after(&self, _number: usize, _scene: &Scene) {}
     /// Called when a step fails or an expectation does not hold.
     fn failed(&self, _: &Failure) {}

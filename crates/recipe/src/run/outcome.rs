@@ -24,13 +24,13 @@ pub struct Outcome {
     pub cancelled: bool,
     /// The number of expectations that were checked.
     pub checked: usize,
-    /// The scene at the end. `None` if the scene was not needed and was therefore not loaded from the cache. Also
-    /// `None` if the scene could not be computed again.
+    /// The scene at the end. `None` if the scene was not needed and therefore not loaded from the cache, or if the
+    /// scene could not be computed again.
     pub scene: Option<Scene>,
     /// The digest of the scene at the end.
     pub digest: Digest,
-    /// The files that were written. If a file cannot be moved to the output folder, the run fails. In this case, the
-    /// list has the files that were moved before the failure.
+    /// The files that were written. If a file cannot be moved to the output folder, the run fails, and the list has the
+    /// files that were moved before the failure.
     pub written: Vec<PathBuf>,
     /// The problem that prevents the cache from storing anything, if there is one.
     pub cache_problem: Option<String>,

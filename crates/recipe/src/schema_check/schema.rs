@@ -21,7 +21,7 @@ pub(crate) struct Schema<'s> {
 pub(super) struct Choice<'s> {
     /// The names of the variants without content.
     pub(super) units: Vec<&'s str>,
-    /// Variants with content. The schema of such a variant is read only when it is needed.
+    /// Variants with content. The schema of the content of a variant is read only when it is needed.
     variants: Vec<(&'s str, &'s Json)>,
     root: Option<&'s Json>,
     /// All other alternatives except null, such as the type inside an option.
@@ -217,8 +217,7 @@ impl<'s> Schema<'s> {
         found.then_some(choice)
     }
 
-    /// If the schema describes strings, adds the names in its `enum` and `const`. Returns whether the schema has any
-    /// such names.
+    /// If the schema describes strings, adds the names in its `enum` and `const`. Returns whether any names were added.
     fn add_units(&self, choice: &mut Choice<'s>) -> bool {
         let before = choice.units.len();
         choice.units.extend(self.units());
@@ -292,8 +291,8 @@ impl<'s> Schema<'s> {
         found.next().map(|json| Self::new(self.root, json))
     }
 
-    /// Returns the field whose current name, or one of whose earlier names, is `name`. The first returned value is the
-    /// current name.
+    /// Finds the field that has the name `name`, or had this name in an earlier version. Returns the current name of
+    /// the field and its schema.
     pub(super) fn field_or_alias(&self, name: &str) -> Option<(&'s str, Self)> {
         let fields = || self.all("properties").filter_map(Json::as_object).flatten();
         let (current, json) = fields()

@@ -81,7 +81,8 @@ pub enum Statistic {
 pub enum Measured {
     /// A whole number.
     Whole(i64),
-    /// A number. It is infinite if there is nothing to measure, for example for the distance to a mesh without faces.
+    /// A number. If there is nothing to measure, the number is infinite, for example the distance to a mesh without
+    /// faces.
     Number(f64),
     /// A string.
     Text(String),

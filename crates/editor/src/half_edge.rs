@@ -5,13 +5,13 @@ use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Values, VertexId};
 /// One way to walk from a half-edge to another half-edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Walk {
-    /// To the next half-edge of the same face.
+    /// Walk to the next half-edge of the same face.
     Next,
-    /// To the other half of the same edge.
+    /// Walk to the other half-edge of the same edge.
     Twin,
-    /// To the previous half-edge of the same face.
+    /// Walk to the previous half-edge of the same face.
     Previous,
-    /// To the next half-edge that leaves the same vertex, clockwise.
+    /// Walk clockwise to the next half-edge that leaves the same vertex.
     AroundVertex,
 }
 

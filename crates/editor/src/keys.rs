@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub enum Action {
     /// Walk to the next half-edge of the face.
     Next,
-    /// Walk to the other half of the edge.
+    /// Walk to the other half-edge of the same edge.
     Twin,
     /// Walk to the previous half-edge of the face.
     Previous,
@@ -71,9 +71,9 @@ pub enum Action {
     Cancel,
     /// Show the next selection expression, such as `Sharp(above: 30)`, that describes the picked elements.
     NextProposal,
-    /// Pick the elements around the picked elements too.
+    /// Also pick the neighbors of the picked elements.
     Grow,
-    /// Unpick the outermost of the picked elements.
+    /// Unpick the picked elements that have a neighbor that is not picked.
     Shrink,
     /// Pick the edge loop through the picked edges.
     EdgeLoop,
@@ -95,9 +95,9 @@ pub enum Action {
     PickFaces,
     /// Pick half-edges.
     PickHalfEdges,
-    /// Move the step cursor to the step before.
+    /// Move the step cursor back by one step.
     StepBack,
-    /// Move the step cursor to the step after.
+    /// Move the step cursor forward by one step.
     StepForward,
     /// Delete the step at the cursor.
     DeleteStep,

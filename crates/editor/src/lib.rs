@@ -1,6 +1,6 @@
 //! The logic of the editor, without its user interface. An editor has a document, which is the text of a recipe, and a
-//! thread that runs this recipe. The editor describes picked elements by selections: expressions such as
-//! `Sharp(above: 30)`. It writes commands of the user into the text as steps.
+//! thread that runs this recipe. The editor describes picked elements by selections: expressions such as `Sharp(above:
+//! 30)`. The editor writes the commands of the user into the text as steps.
 //!
 //! ```text
 //! text --parse--> recipe --run from the first step that is not known--> snapshots --> view
@@ -10,9 +10,9 @@
 //!
 //! The recipe's text is the only state that an edit changes. An [`Editor`] changes the text, and a separate thread runs
 //! the recipe. To undo a change, the editor goes back to an earlier text in its history of texts. The editor keeps the
-//! scenes after the steps of recent texts in memory. So when a change is undone, usually no step has to run. This crate
-//! opens no window. A program that uses it draws the scenes that [`Editor`] returns, and passes the input of the user
-//! to the editor.
+//! scenes after the steps of recent texts in memory, so that usually no step has to run when a change is undone. This
+//! crate opens no window. A program that uses this crate draws the scenes that [`Editor`] returns, and passes the input
+//! of the user to the editor.
 //!
 //! | task | items |
 //! | --- | --- |

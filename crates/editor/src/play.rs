@@ -246,7 +246,7 @@ impl Editor {
     }
 
     /// Whether a step of the text makes local edits that can be played. The parameters of the step are not checked,
-    /// except the number of levels. So [`play`](Self::play) can still return `None`.
+    /// except the number of levels, so [`play`](Self::play) can still return `None`.
     pub fn has_edits(&self, step: usize) -> bool {
         let operation = self.outline().steps.get(step).map(|text| &*text.name);
         operation.is_some_and(|name| match Edit::of(name) {

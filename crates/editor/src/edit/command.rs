@@ -18,8 +18,8 @@ pub struct Command {
     pub operation: String,
     /// The names of the parameters, and their values as RON.
     pub parameters: Vec<(String, String)>,
-    /// The selection of the elements on which the operation works. It becomes the value of the first parameter that
-    /// selects elements, if the command gives this parameter no value.
+    /// The selection of the elements on which the operation works. The selection becomes the value of the first
+    /// parameter that selects elements, if the command gives this parameter no value.
     pub selection: Option<SelectionText>,
     /// The object that the step acts on. If `None`, the step usually acts on all objects. But if the scene has several
     /// meshes and the command has a selection, the step acts only on the object of the selection.
@@ -77,9 +77,9 @@ pub enum CommandError {
 }
 
 impl SelectionText {
-    /// Returns the selection in the form that the operation `name` needs. The step `before` adds a tag to elements. If
-    /// the operation `name` itself adds such a tag, the step `before` is not needed: in this case, returns the list of
-    /// elements that the step `before` contains. Otherwise, returns a copy of `self`.
+    /// Returns the selection for a command with the operation `name`. If the step `before` has the same operation,
+    /// which adds a tag to elements, the step `before` is not needed. In this case, the returned selection lists the
+    /// elements that the step `before` would tag. In all other cases, returns a copy of `self`.
     fn without_tag(&self, name: &str) -> Self {
         let elements = self.before.as_deref().and_then(|before| {
             let step = parse(before).value;
@@ -115,7 +115,8 @@ impl Command {
     }
 }
 
-/// Operations that do not change the ids of elements. After such an operation, the picked elements stay picked.
+/// Operations that do not change the ids of the existing elements. After a command with one of these operations, the
+/// picked elements stay picked.
 const KEEPS_IDS: &[&str] = &[
     "FlipEdges",
     "SplitEdges",
@@ -358,7 +359,8 @@ impl Editor {
 }
 
 /// Returns the first parameter that selects elements, and the kind of elements that it selects. A command sets this
-/// parameter to the selection of the picked elements. Returns `None` if the parameter already has a value.
+/// parameter to the selection of the picked elements. Returns `None` if no parameter selects elements, or if the first
+/// parameter that selects elements already has a value.
 fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> {
     let first = panel
         .fields
@@ -377,8 +379,9 @@ impl Panel {
     }
 
     /// Returns the name of the parameter that a command with this selection sets, and its new value as RON. Returns
-    /// `None` if no parameter selects elements, or if the first such parameter already has a value. Also returns `None`
-    /// if the picked elements cannot be converted to the kind of elements that this parameter selects.
+    /// `None` if no parameter selects elements, or if the first parameter that selects elements already has a value.
+    /// Also returns `None` if the picked elements cannot be converted to the kind of elements that this parameter
+    /// selects.
     pub fn picked_value(&self, selection: &SelectionText) -> Option<(String, String)> {
         let (field, kind) = unset_selection(self)?;
         let selection = selection.without_tag(&self.operation);

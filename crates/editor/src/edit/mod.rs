@@ -81,7 +81,7 @@ pub struct Editor {
     preview_steps: usize,
     /// The number of steps of the text before the cursor.
     cursor: usize,
-    /// The scene that is shown as long as the scene at the step cursor is not known.
+    /// The scene that is shown. While the scene at the step cursor is not known, this is an earlier scene.
     shown: Arc<Scene>,
     picked: Option<Picked>,
     /// Whether the scene that is shown has all picked elements. During a preview, some of the picked elements can be
@@ -127,8 +127,8 @@ pub struct Update {
 pub struct View {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// Whether `scene` is the scene after the steps before the step cursor. If the run has not ended or has failed,
-    /// `scene` is an earlier scene instead: the last scene that was known.
+    /// Whether `scene` is the scene at the step cursor. If the scene at the step cursor is not known, because the run
+    /// has not ended or has failed, `scene` is the last known scene.
     pub is_current: bool,
 }
 
@@ -369,16 +369,16 @@ impl Editor {
     }
 
     /// Returns the steps of the newest run that come from the step `item` of the text, as a range of indices into the
-    /// steps of the run. During a preview, the run can have more steps than the text. The range takes these additional
-    /// steps into account.
+    /// steps of the run. During a preview, the run can have more steps than the text. The returned range takes these
+    /// additional steps into account.
     pub fn steps_of_item(&self, item: usize) -> std::ops::Range<usize> {
         let is_after = item >= self.cursor;
         let new = if is_after { self.preview_steps } else { 0 };
         self.run.steps_of(item + new)
     }
 
-    /// Returns the last known result among the steps before the cursor. Also returns whether the returned result is the
-    /// result of the step right before the cursor.
+    /// Returns the last known result among the steps before the cursor. Also returns whether this result is the result
+    /// at the cursor, and not of an earlier step.
     fn result(&self) -> (Option<&Snapshot>, bool) {
         let n = self.cursor + self.preview_steps;
         let (last, is_known) = self.run.result_after(n);
@@ -390,8 +390,9 @@ impl Editor {
         (last, is_known && is_read)
     }
 
-    /// Makes the scene at the step cursor the scene that is shown. If the recipe has errors, the scene that was shown
-    /// last is still shown.
+    /// Shows the scene at the step cursor or, if this scene is not known, the last known scene before the cursor. If
+    /// the scene at the step cursor is not known because the recipe has errors, the scene that is shown does not
+    /// change.
     fn keep_shown(&mut self) {
         let (last, is_known) = self.result();
         let shown = match last {
@@ -469,8 +470,9 @@ impl Editor {
         });
     }
 
-    /// Writes the unsaved text to the journal, and keeps the journal when the editor is dropped. At its next start, the
-    /// program can offer the text. A program calls this function if it must end before the user can save the text.
+    /// Writes the unsaved text to the journal, and keeps the journal when the editor is dropped. The program can offer
+    /// the text at its next start. A program calls this function if the program must end before the user can save the
+    /// text.
     pub fn leave_journal(&mut self) {
         self.keep_journal();
         self.journal = None;

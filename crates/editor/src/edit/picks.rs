@@ -41,8 +41,8 @@ pub enum PickError {
 }
 
 impl Editor {
-    /// Returns the picked elements, or `None` if nothing is picked. Also returns `None` if a preview is shown whose
-    /// scene does not have all picked elements.
+    /// Returns the picked elements. Returns `None` if nothing is picked, or if a preview is shown and its scene does
+    /// not have all picked elements.
     pub fn picked(&self) -> Option<&Picked> {
         self.picked.as_ref().filter(|_| self.has_picked)
     }
@@ -104,8 +104,8 @@ impl Editor {
     }
 
     /// Whether the search for the selections that describe several picked elements is still in progress. In a large
-    /// mesh, the search takes long. Commands wait for the end of the search. A window calls this function before it
-    /// shows a selection, so that the window need not wait.
+    /// mesh, the search takes long. Commands wait for the end of the search. To avoid waiting, a window calls this
+    /// function before it shows a selection.
     pub fn is_searching(&mut self) -> bool {
         let is_one = self.picked.as_ref().is_some_and(|picked| picked.len() == 1);
         if !is_one && self.first_proposal.is_none() {
@@ -139,10 +139,10 @@ impl Editor {
     }
 
     /// Picks the elements that a typed selection selects. The text has the form of a selection in a recipe. Commands
-    /// then use this text. If elements are picked, the text is read as a selection of elements of their kind. If
-    /// nothing is picked, the text is read as a selection of elements of the given kind. If the text does not fit this
-    /// kind, the other kinds are tried. The elements are selected on the object with the picked elements or, if nothing
-    /// is picked, on the first mesh.
+    /// use the text as their selection. If elements are picked, the text is read as a selection of elements of their
+    /// kind. If nothing is picked, the text is read as a selection of elements of the given kind. If the text does not
+    /// fit this kind, the other kinds are tried. The elements are selected on the object with the picked elements or,
+    /// if nothing is picked, on the first mesh.
     ///
     /// # Errors
     ///
@@ -180,13 +180,13 @@ impl Editor {
         Ok(())
     }
 
-    /// Keeps only those picked elements that exist in the scene at the step cursor.
+    /// Keeps only those picked elements that exist in the scene that is shown.
     pub(super) fn keep_picked(&mut self) {
         let existing = self.existing();
         self.set_picked(existing);
     }
 
-    /// Returns the picked elements that exist in the scene at the step cursor.
+    /// Returns the picked elements that exist in the scene that is shown.
     pub(super) fn existing(&self) -> Option<Picked> {
         let picked = self.picked.as_ref()?;
         let mesh = self.shown.object(&picked.object)?.as_mesh()?;

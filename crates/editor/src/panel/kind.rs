@@ -31,7 +31,7 @@ pub enum FieldKind {
     Struct(Vec<PanelField>),
     /// A selection of elements. If `None`, the selection can select elements of any kind.
     Selection(Option<ElementKind>),
-    /// Any other type. The widget of such a field is a text field for RON. The text is checked.
+    /// Any other type. The widget of the field is a text field for RON, and the text is checked.
     Other,
     /// A value of this kind, or none.
     Optional(Box<FieldKind>),

@@ -5,8 +5,8 @@
 //!                         \-> nothing: all faces whose picture is near the pixel
 //! ```
 //!
-//! If there is a vertex within the pick radius of the pixel, the vertex is picked. If there is no such vertex, an edge
-//! within the radius is picked. If there is neither, the face at the pixel is picked.
+//! If a vertex is within the pick radius of the pixel, the vertex is picked. If only an edge is within the pick radius,
+//! the edge is picked. If neither a vertex nor an edge is within the pick radius, the face at the pixel is picked.
 
 use std::sync::Arc;
 
@@ -62,9 +62,9 @@ pub struct Hit {
     pub instance: usize,
     /// The element. If the mode is [`PickMode::HalfEdge`], the element is a half-edge.
     pub element: Element,
-    /// The half-edge that belongs to the element. For an edge, it is the half on the face under the cursor. For a face,
-    /// it is the half-edge of the face that is nearest to the pixel. `None` if the element is a vertex that has no
-    /// edges.
+    /// The half-edge that belongs to the element. For an edge, this is the half-edge on the face under the cursor. For
+    /// a face, this is the half-edge of the face that is nearest to the pixel. `None` if the element is a vertex that
+    /// has no edges.
     pub half_edge: Option<HalfEdgeId>,
     /// The face under the cursor. `None` if no face is under the cursor.
     pub face: Option<FaceId>,
@@ -196,8 +196,9 @@ struct Search<'a, 's> {
 }
 
 impl Search<'_, '_> {
-    /// Searches a face and the faces around it. Adds the vertices and edges of these faces that are near the pixel. A
-    /// face around the given face is searched only if both faces show the same side (front or back) to the viewer.
+    /// Searches a face and the faces around it. Adds the vertices and edges of these faces that are near the pixel.
+    /// Faces around the given face are searched only if they show the same side (front or back) to the viewer as the
+    /// given face.
     fn around(&mut self, at: usize, face: FaceId) {
         let target = &self.targets[at];
         let (_, direction) = target.view.ray(self.pixel);

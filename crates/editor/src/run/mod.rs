@@ -36,7 +36,7 @@ pub(crate) struct Request {
     pub(crate) source: Source,
     /// The folder for outputs.
     pub(crate) out: PathBuf,
-    /// Whether the run keeps the output files that it writes. Otherwise, it discards them.
+    /// If true, the run keeps the output files that it writes. If false, the run discards them.
     pub(crate) keep_outputs: bool,
     /// The memory budget for meshes, in bytes.
     pub(crate) budget: u64,

@@ -85,9 +85,9 @@ impl Picked {
         self.half_edge = other.half_edge.or(self.half_edge);
     }
 
-    /// If all elements of another set are already in this set, removes these elements. Otherwise, adds them. A click
-    /// with Shift has this effect. If the other set belongs to another object, or has another kind of elements, the
-    /// other set replaces this set.
+    /// If all elements of another set are already in this set, removes these elements. Otherwise, adds the elements of
+    /// the other set. A click with Shift has this effect. If the other set belongs to another object, or has another
+    /// kind of elements, the other set replaces this set.
     pub fn toggle(&mut self, other: &Self) {
         let before = self.clone();
         self.add(other);

@@ -1,9 +1,9 @@
 //! Finds the selections of recipes that describe the picked elements.
 //!
-//! A selection describes the picked elements if it selects exactly these elements. The most meaningful candidates are
-//! tried first. The order is tags, the boundary, materials, loops and paths, components, thresholds, and lists of
-//! indices. If a single element is picked, its index is tried first. Each candidate is evaluated on the mesh, and is
-//! kept if it selects exactly the picked elements.
+//! A selection describes the picked elements if it selects exactly these elements. Candidates are tried in this order:
+//! `All`, tags, the boundary, selections for the kind of the picked elements such as `EdgeLoop` or `Material`, and
+//! lists of indices. If a single element is picked, its index is tried first. Each candidate is evaluated on the mesh,
+//! and is kept if it selects exactly the picked elements.
 
 use mesh::{Domain, EdgeId, FaceId, Id, MATERIAL, Mesh, Values, VertexId};
 use op::{ElementKind, Selected};

@@ -1,4 +1,4 @@
-//! Messages over the view: conflicts, recovery, notices, errors.
+//! Shows messages over the view: conflicts, unsaved texts that can be recovered, notices and errors.
 
 use eframe::egui::{Color32, CornerRadius, Frame, Margin, RichText, Stroke, Ui};
 

@@ -13,7 +13,7 @@ use crate::theme::Colors;
 pub(crate) struct Mark {
     /// The bytes of the text.
     pub(crate) range: Range<usize>,
-    /// Whether the part has an error. If not, it has a warning.
+    /// If true, the part has an error. If false, the part has a warning.
     pub(crate) is_error: bool,
 }
 

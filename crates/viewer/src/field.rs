@@ -30,7 +30,8 @@ pub(crate) enum Change {
     Reset,
 }
 
-/// A whole number has a slider only if its range is at most this large. Otherwise, it has a number field.
+/// The widget of a whole number is a slider if the range of the number is at most this large. If the range is larger,
+/// the widget is a number field.
 const MAX_SLIDER: f64 = 1000.0;
 
 /// The largest number of parts of a value that are shown without a click.

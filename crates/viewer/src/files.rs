@@ -113,7 +113,7 @@ fn finish(parts: &mut Parts, result: Result<(), impl Display>, path: &Path) {
     }
 }
 
-/// Asks what to do with unsaved changes.
+/// Asks the user whether the unsaved changes are saved or discarded.
 pub(crate) fn question(ctx: &Context, parts: &mut Parts) {
     let Some(pending) = parts.pending.clone() else {
         return;

@@ -80,7 +80,7 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
 }
 
 /// Returns the column of each group. The groups are added one after another, the longest first, to the column that is
-/// shortest so far. So the three columns become about equally long.
+/// shortest so far, so that the three columns become about equally long.
 fn columns_of(lengths: &[usize]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..lengths.len()).collect();
     order.sort_by_key(|&g| std::cmp::Reverse(lengths[g]));

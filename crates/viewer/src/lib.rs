@@ -1,4 +1,5 @@
-//! The window of the editor. The window draws what the crate `editor` computes, and forwards input to `editor`.
+//! The window of the editor. The window draws the scenes that the crate `editor` computes, and passes the input of the
+//! user to this crate.
 //!
 //! - [`App`]: the window's contents, for eframe and for tests.
 //! - [`camera`]: the camera of the view.

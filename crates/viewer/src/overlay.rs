@@ -1,5 +1,5 @@
-//! What is drawn on top of the scene: picked elements, the element under the cursor, the arrow of the half-edge, and
-//! the places of errors.
+//! Creates the overlay, which is drawn on top of the scene: picked elements, the element under the cursor, the arrow of
+//! the half-edge, and the places of errors.
 
 use editor::Picked;
 use geometry::triangulate::Cutter;

@@ -10,7 +10,8 @@ use mesh_io::Format;
 use crate::app::{Parts, Pending};
 use crate::{files, help};
 
-/// If a dialog ends in less than this time, the system did not show it. This happens on Linux without a desktop portal.
+/// If a dialog ends in less than this time, the system did not show the dialog, for example on Linux without a desktop
+/// portal.
 const SHORTEST_DIALOG: Duration = Duration::from_millis(200);
 
 /// The entry for the folder that contains the listed folder.
@@ -66,7 +67,7 @@ impl Purpose {
 pub(crate) struct Prompt {
     purpose: Purpose,
     path: String,
-    /// The folder of the path, and what it contains.
+    /// The folder of the path, and the folders and files in this folder that are listed.
     listed: (PathBuf, Vec<Listed>),
     /// Whether the text field for the path gets the keyboard focus in the next frame.
     takes_keys: bool,

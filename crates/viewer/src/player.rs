@@ -104,7 +104,8 @@ impl Parts {
         self.player = Some(player);
     }
 
-    /// Does the next edit if its time has come, and ends the player if the step has changed.
+    /// Does the next edit if its time has come. Ends the player if the text has changed, or if the step cursor is no
+    /// longer directly after the step.
     pub(crate) fn advance_player(&mut self, ui: &Ui) {
         let Some(player) = &mut self.player else {
             return;

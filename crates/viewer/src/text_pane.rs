@@ -196,10 +196,10 @@ struct Words {
     texts: Vec<String>,
 }
 
-/// Returns the completions of the word before the cursor. For a word that begins with a capital letter, the completions
-/// are the names of the variants of the parameter whose value contains the word. If there is no such parameter, or it
-/// has no variants, the completions are the names of operations. For other words, the completions are the names of the
-/// parameters of the step.
+/// Returns the completions of the word before the cursor. A word that begins with a capital letter is completed to
+/// names of variants if the word is in the value of a parameter that has variants. Otherwise, a word that begins with a
+/// capital letter is completed to names of operations. Other words are completed to names of the parameters of the
+/// step.
 fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     let none = Words {
         range: 0..0,
@@ -257,9 +257,9 @@ fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     }
 }
 
-/// Returns the variants of the parameter whose value contains a byte of the text. If the byte is in a selection inside
-/// another selection, these are also the variants of the inner selection. Returns no variants if the byte is not in the
-/// value of a parameter of a step.
+/// Returns the variants of the parameter whose value contains a byte of the text. If the byte is in a selection that is
+/// nested inside another selection, these are still the variants of the parameter. Returns no variants if the byte is
+/// not in the value of a parameter of a step.
 fn variants_at(editor: &editor::Editor, at: usize) -> Vec<recipe::VariantDoc> {
     let outline = editor.outline();
     let field = outline.step_at(at).and_then(|step| {

@@ -45,7 +45,7 @@ pub(super) struct Chunk {
     pub(super) texture: Option<Arc<Texture>>,
     /// The position of each corner in the image of the texture. Empty without a texture.
     pub(super) uvs: Vec<[f32; 2]>,
-    /// The appearance. It has the same fields as the uniform `Object` of the shader, except for `offset`.
+    /// The appearance, with the same fields as the uniform `Object` of the shader except for `offset`.
     pub(super) look: SurfaceLook,
 }
 

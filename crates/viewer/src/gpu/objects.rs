@@ -184,8 +184,8 @@ impl Uploaded {
     }
 }
 
-/// Uploads elements for vertex buffers. Returns the buffer and the number of elements. `None` if there are no elements,
-/// or more than a buffer can hold.
+/// Uploads elements to a vertex buffer. If a buffer cannot hold all elements, only the first elements are uploaded.
+/// Returns the buffer and the number of uploaded elements, or `None` if there are no elements.
 fn vertices<T: Pod>(device: &wgpu::Device, elements: &[T]) -> Option<(wgpu::Buffer, u32)> {
     let most = device.limits().max_buffer_size / size_of::<T>() as u64;
     let most = usize::try_from(most).unwrap_or(usize::MAX);
@@ -199,7 +199,7 @@ fn vertices<T: Pod>(device: &wgpu::Device, elements: &[T]) -> Option<(wgpu::Buff
     Some((buffer, n))
 }
 
-/// Converts and uploads an object. Also returns a message for each texture that cannot be drawn.
+/// Converts and uploads an object. Returns the buffers, and a message for each texture that cannot be drawn.
 pub(super) fn upload(
     device: &wgpu::Device,
     pipelines: &Pipelines,

@@ -148,7 +148,8 @@ impl Painter {
         self.objects.iter().map(Uploaded::n_triangles).sum()
     }
 
-    /// Sets the scene and its look. Uploads only objects that are new. Returns messages about what cannot be drawn.
+    /// Sets the scene and its look. Uploads only objects that are new or have changed. Returns messages about objects,
+    /// textures and colors that cannot be drawn.
     pub fn set_scene(&mut self, scene: &Scene, look: &Look) -> Vec<String> {
         let scene = scene.placed();
         let mut messages = Vec::new();
@@ -201,7 +202,7 @@ impl Painter {
         messages
     }
 
-    /// Sets what is drawn on top of the scene.
+    /// Uploads the overlay, which is drawn on top of the scene, if the overlay or the scale has changed.
     fn upload_overlay(&mut self, overlay: &Overlay, scale: f32) {
         let is_known = self
             .overlay_key
@@ -219,8 +220,8 @@ impl Painter {
                 line.hidden,
                 line.color,
             );
-            // The first line of the overlay is half a pixel farther from the camera than the other lines, so that they
-            // cover it.
+            // The first line of the overlay is half a pixel farther from the camera than the other lines of the
+            // overlay, so that these lines cover the first line.
             instance.look[2] = 0.5 + if i > 0 { 0.5 } else { 0.0 };
             instance
         };

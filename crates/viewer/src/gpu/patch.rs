@@ -118,7 +118,7 @@ fn has_sharp_edge(mesh: &Mesh, f: FaceId, sharp: f64) -> bool {
     mesh.face_half_edges(f).any(|h| {
         mesh.face(h.twin()).is_none_or(|g| {
             let m = mesh.face_normal(g);
-            // An angle near the limit counts as sharp. Then the whole object is converted, and not only its changed
+            // An angle near the limit counts as sharp, so that the whole object is converted and not only its changed
             // faces.
             n.dot(m) <= limit + 1e-4
         })

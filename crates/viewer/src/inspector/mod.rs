@@ -66,7 +66,7 @@ fn step_title(parts: &Parts) -> String {
     }
 }
 
-/// Returns the selection that describes the picked elements. `None` while the search for it is in progress.
+/// Returns the selection that describes the picked elements. `None` while the search for this selection is in progress.
 fn known_selection(parts: &mut Parts) -> Option<SelectionText> {
     let is_known = !parts.editor.is_searching();
     is_known.then(|| parts.editor.selection()).flatten()

@@ -1,4 +1,4 @@
-//! What is drawn over the picture: the axes and the legend of colors.
+//! Draws over the picture: the axes, the area that the user draws with the mouse, and the legend of colors.
 
 use eframe::egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, Vec2};
 use mesh::DVec3;

@@ -24,7 +24,7 @@ const RING: u8 = 64;
 /// The index of the handle that scales along all axes.
 const ALL: usize = 3;
 
-/// What the handles do.
+/// The kind of movement that the handles make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Tool {
     Move,
@@ -32,7 +32,7 @@ pub(crate) enum Tool {
     Scale,
 }
 
-/// Where the handles are and what they do.
+/// The places of the handles, and the kind of movement that the handles make.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gizmo {
     pub(crate) tool: Tool,
@@ -233,8 +233,8 @@ impl ViewPane {
         }
     }
 
-    /// Returns the visible part of the ring around an axis: the half of the ring that is nearer to the viewer, or the
-    /// whole ring if the ring faces the viewer.
+    /// Returns the visible part of the ring around an axis. If the ring faces the viewer, the whole ring is visible. If
+    /// not, the half of the ring that is nearer to the viewer is visible.
     fn ring(&self, gizmo: Gizmo, length: f64, axis: usize) -> Handle {
         let normal = gizmo.axes[axis];
         let back = self.camera.axes()[2];

@@ -1,4 +1,4 @@
-//! Turns the camera, and finds what is under the cursor.
+//! Turns the camera, and finds the element under the cursor.
 
 use editor::{Area, Projection, keep_visible, pick, pick_area};
 use eframe::egui::{self, PointerButton, Pos2, Rect, Ui};

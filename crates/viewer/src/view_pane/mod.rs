@@ -1,4 +1,4 @@
-//! The view: draws the scene, turns the camera, and finds what is under the cursor.
+//! The view: draws the scene, turns the camera, and finds the element under the cursor.
 
 mod control_points;
 mod decorations;
@@ -29,11 +29,12 @@ pub(crate) use loss::Loss;
 /// Something that the user did in the view.
 #[derive(Clone, Debug)]
 pub(crate) enum ViewEvent {
-    /// A click on an element, or beside all elements.
+    /// A click on an element, or on a place without an element.
     Click {
-        /// The element.
+        /// The clicked element. `None` if the click was beside all elements.
         hit: Option<Hit>,
-        /// Whether the element is added to the picked elements.
+        /// If true, the element is added to the picked elements or, if the element is already picked, removed from
+        /// them. If false, the element replaces the picked elements.
         extends: bool,
         /// Whether it was a double click.
         is_double: bool,
@@ -42,8 +43,8 @@ pub(crate) enum ViewEvent {
     Area {
         /// The elements of each object.
         picked: Vec<Picked>,
-        /// Whether the elements are removed from the picked elements. If not, the elements are added to the elements
-        /// that were picked before.
+        /// If true, the elements in the area are removed from the picked elements. If false, the elements in the area
+        /// are added to the picked elements.
         removes: bool,
     },
     /// A drag of a handle at the picked elements.
@@ -66,7 +67,7 @@ pub(crate) enum ViewEvent {
     },
 }
 
-/// What the view shows.
+/// The scene, the marks and the handles that the view shows.
 pub(crate) struct Shown<'a> {
     pub(crate) scene: Option<&'a Arc<Scene>>,
     pub(crate) picked: Option<&'a Picked>,
@@ -102,9 +103,9 @@ pub(crate) struct ViewPane {
     pub(crate) camera: Camera,
     /// The appearance.
     pub(crate) look: Look,
-    /// What a click picks.
+    /// The kind of elements that a click picks.
     pub(crate) mode: PickMode,
-    /// What the handles at the picked elements do. If `None`, no handles are shown.
+    /// The kind of movement that the handles at the picked elements make. If `None`, no handles are shown.
     pub(crate) tool: Option<Tool>,
     /// The element under the cursor.
     pub(crate) hovered: Option<Hit>,
@@ -117,7 +118,7 @@ pub(crate) struct ViewPane {
     /// The scene that is uploaded, with its look.
     uploaded: Option<(Arc<Scene>, Look)>,
     drawn: Option<Drawn>,
-    /// Messages about what cannot be drawn.
+    /// Messages about objects, textures and colors that cannot be drawn.
     pub(crate) messages: Vec<String>,
     /// Whether the camera was fitted to a scene.
     is_fitted: bool,
@@ -133,7 +134,7 @@ pub(crate) struct ViewPane {
     /// The widget of the view in the last frame.
     pub(crate) id: Option<egui::Id>,
     legend: Option<(String, ColorMap, [f64; 2])>,
-    /// What the current overlay shows. If this changes, a new overlay is made.
+    /// The scene and the elements that the current overlay shows. If one of them changes, a new overlay is made.
     overlay_key: Option<OverlayKey>,
     overlay: Overlay,
     /// Increases with every change of the overlay.

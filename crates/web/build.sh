@@ -2,9 +2,9 @@
 # Builds the package for browsers and Node in target/web, and tests it in Node. Builds the engine with threads in
 # target/ci/web/threads. Then builds the page in target/web/page, and tests it in Chromium.
 #
-# If the installed toolchain has the standard library for WebAssembly, the script uses this toolchain. Otherwise, the
-# script unpacks Debian packages in target/ci/web: a compiler, and the sources of its standard library. If a tool is not
-# available, the script prints the reason and exits with code 0.
+# If the installed toolchain has the standard library for WebAssembly, the script uses this toolchain. If the toolchain
+# does not have this library, the script unpacks Debian packages in target/ci/web: a compiler, and the sources of its
+# standard library. If a tool is not available, the script prints the reason and exits with code 0.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 work=$PWD/target/ci/web

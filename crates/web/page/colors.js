@@ -54,7 +54,8 @@ function attribute(colors, times) {
     return new THREE.BufferAttribute(light, 3, true);
 }
 
-/// Shows the legend of a quantity: `{ title, low, high, colors }` or `{ title, classes }`; hides it if there is none.
+/// Shows the legend of a quantity: `{ title, low, high, colors }` or `{ title, classes }`. Without `legend`, hides the
+/// legend.
 export function showLegend(legend) {
     byId("legend").hidden = !legend;
     if (!legend) {

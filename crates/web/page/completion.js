@@ -6,7 +6,7 @@ import { around } from "./ron.js";
 const ON_MESHES = ["Transform", "Triangulate", "FillHoles", "Reverse", "Symmetrize", "Simplify", "Remesh", "Smooth", "Displace", "Bend",
     "Twist", "Taper"];
 
-/// Finds what can be written at a position of a recipe, from the schema of recipes.
+/// Finds the words and texts that can be written at a position of a recipe, from the schema of recipes.
 export class Completions {
     #schema;
     #examples;
@@ -31,7 +31,7 @@ export class Completions {
         return options.length ? { from, options, validFor: /^[A-Za-z_0-9]*$/ } : null;
     };
 
-    /// Returns what can be written at a position.
+    /// Returns the completions that can be written at a position.
     options(text, position) {
         const stack = around(text, position);
         if (!stack || stack.length < 2) {
@@ -197,7 +197,8 @@ export class Completions {
     }
 }
 
-/// Returns whether a node is a variant with a value, such as `Between(..)`. Fields start in lower case.
+/// Returns whether a node is a variant with a value, such as `Between(..)`. Names of variants start in upper case, and
+/// names of fields in lower case.
 function isVariant(node) {
     return node.required?.length === 1 && /^[A-Z]/.test(node.required[0]);
 }

@@ -141,7 +141,7 @@ export class Editor {
         }
         const comma = place.comma || place.empty ? "" : ",";
         const { text } = this.#view.state.doc.lineAt(place.end);
-        // This is the line of the last step. If there are no steps, it is the line that opens the list of steps.
+        // `text` is the line of the last step or, if there are no steps, the line that opens the list of steps.
         const indent = text.match(/^ */)[0] + (/\bsteps\s*:/.test(text) ? "    " : "");
         const insert = `${comma}\n${indent}${step},`;
         const anchor = place.end + insert.length;

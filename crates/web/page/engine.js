@@ -1,4 +1,5 @@
-// The engine in its worker. The page keeps the files, so that a new worker can replace one that was canceled or has failed.
+// The engine in its worker. The page keeps the files, so that a new worker can replace a worker that was canceled or
+// has failed.
 import { cut, outline } from "./ron.js";
 
 /// The maximum number of threads. More threads would need much memory and save little time.
@@ -174,10 +175,10 @@ export class Engine {
         return this.#call("run", recipe, set);
     }
 
-    /// Runs a recipe up to a step. `number` is the place of this step in the list that `check` returns, and counts from
-    /// 1 on. If the engine still has the result of a step, this step does not run again. Returns the result, and the
-    /// number of steps of the text that have run. This number can differ from `number`: a `Call`, `Repeat` or `If` is
-    /// one step of the text, but several steps of the list or none.
+    /// Runs a recipe up to a step. `number` is the number of this step in the list that `check` returns, counted from
+    /// 1. If the engine still has the result of a step, this step does not run again. Returns the result, and the
+    /// number of steps of the text that have run. The number of steps of the text can differ from `number`, because a
+    /// `Call`, `Repeat` or `If` is one step of the text, but can be several steps of the list or none.
     async runTo(number, recipe, set) {
         let [written, most] = [1, outline(recipe).steps.length];
         while (written < most) {

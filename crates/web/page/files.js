@@ -143,7 +143,7 @@ export class Files {
             "Steps such as Save(path: \"a.obj\") write files, which can be downloaded here.")]);
     }
 
-    /// Disables the downloads. Used when the engine has run only some of the steps, and so does not have all outputs.
+    /// Disables the downloads if the engine has run only some of the steps, and therefore does not have all outputs.
     lock() {
         for (const button of byId("outputs").querySelectorAll("button")) {
             button.disabled = true;

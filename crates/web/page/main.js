@@ -19,10 +19,11 @@ const loaded = engine.load(globalThis.download);
 
 /// Whether the engine is busy with a run, or not loaded yet.
 let running = true;
-/// Whether the text or a value has changed since the last check or run began.
+/// Whether a check, or a run, was requested while the engine was busy.
 let checkAgain = false;
 let runAgain = false;
-/// Whether changes run the recipe. A recipe whose last run has not ended is only checked until the visitor runs it.
+/// Whether changed inputs and added steps run the recipe. A recipe whose last run has not ended is only checked until
+/// the visitor runs it.
 let trusted = true;
 /// The step whose meshes are shown: `{ number, total, label, written }`, where `written` is the number of steps of the
 /// text that have run; `null` for the last step.
@@ -35,7 +36,8 @@ let sameRecipe = false;
 let up = "auto";
 /// Whether the text that is being opened must not be kept for the next visit.
 let foreign = false;
-/// The text and the values of the last run. Its problems and steps are shown until the text or a value changes.
+/// The text and the values of the last run. The problems and steps of this run are shown until the text or a value
+/// changes.
 let lastRun;
 /// A promise that is settled once the files of a shared recipe are written.
 let arriving = Promise.resolve();
@@ -178,7 +180,7 @@ function ended() {
     }
 }
 
-/// Shows the meshes after a step of the list, counted from 1, and moves the cursor to its line.
+/// Shows the meshes after a step of the list, counted from 1, and moves the cursor to the line of the step.
 async function chooseStep(number, line) {
     if (line) {
         editor.moveTo(line);
@@ -216,7 +218,7 @@ async function showStep(number) {
     ended();
 }
 
-/// Returns the text and the values as one string, by which runs are compared.
+/// Returns the text and the values as one string, so that runs can be compared.
 function current() {
     return JSON.stringify([editor.text, parameters.values]);
 }
@@ -307,7 +309,7 @@ async function openShared() {
     }
 }
 
-/// Writes the files of the scenes that a recipe names. Without them, the check reports which files are missing.
+/// Writes the files of the gallery that a recipe names. Without these files, the check reports which files are missing.
 async function writeNamed(recipe) {
     const named = await namedFiles(recipe).catch(() => []);
     if (named.length) {
@@ -339,7 +341,7 @@ function showTab(tab) {
 }
 
 function listen() {
-    // On a narrow screen, the tabs hide the view.
+    // On a narrow screen, the tab of the recipe hides the view, so a successful run opens the tab of the view.
     byId("run").addEventListener("click", async () => await run() && showTab("view"));
     byId("cancel").addEventListener("click", cancel);
     byId("show-end").addEventListener("click", run);

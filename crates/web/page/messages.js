@@ -1,4 +1,4 @@
-// Messages of the engine name commands of the program. The page has other ways to the same information.
+// Messages of the engine name commands of the command-line program. In the page, other texts replace these commands.
 
 const IN_PAGE = [
     ["`meshwright ops` lists all operations", "the reference, linked below the recipe, lists all operations"],

@@ -105,7 +105,7 @@ export class Parameters {
     }
 }
 
-/// Returns a value as an input shows it.
+/// Returns the text with which an input shows a value.
 function written(type, value) {
     return type === "Int" || type === "Float" ? String(Number(value)) : value;
 }

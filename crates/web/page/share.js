@@ -7,11 +7,11 @@ const MAX_LINK = 32_000;
 /// The maximum size of a shared recipe in bytes.
 const MAX_TEXT = 1_000_000;
 
-/// The link is not valid. The message is for the visitor.
+/// The error if a link cannot be created or opened. Its message is shown to the visitor.
 export class LinkError extends Error {}
 
-/// Returns the link to a recipe with values of parameters, or throws `LinkError` if it would be too long. `page` is the URL of
-/// this page.
+/// Returns the link to a recipe with values of parameters, or throws `LinkError` if the link would be too long. `page`
+/// is the URL of this page.
 export async function link(recipe, set, page = location.href) {
     const stream = new Blob([recipe]).stream().pipeThrough(new CompressionStream("deflate-raw"));
     const bytes = new Uint8Array(await new Response(stream).arrayBuffer());

@@ -18,7 +18,7 @@ export class Stage {
     #choseEdges = false;
     #meshes = [];
     #completions = null;
-    /// The numbers of the step whose meshes are shown and of all steps; `null` for the meshes after the last step.
+    /// The step whose meshes are shown, as `{ number, total, label }`; `null` for the meshes after the last step.
     #shown = null;
     /// `null` if the browser has no WebGL.
     view = null;
@@ -46,8 +46,9 @@ export class Stage {
         this.#offerSteps();
     }
 
-    /// Shows the scene of a run. The camera and the picked elements stay if `keep` is true. `up` is the axis that points
-    /// upwards: "y", "z" or "auto". `step` is `{ number, total, label }` if the scene is that of an earlier step.
+    /// Shows the scene of a run. The camera and the picked elements stay if `keep` is true. `up` is the axis that
+    /// points upwards: "y", "z" or "auto". `step` is `{ number, total, label }` if the scene is the scene after a step
+    /// before the last step.
     async show({ meshes, objects, quantities }, keep, up, step = null) {
         this.#enable(true);
         this.#shown = step;
@@ -90,7 +91,7 @@ export class Stage {
         }
     }
 
-    /// Offers the quantities of the meshes. The chosen one stays if the meshes still have it.
+    /// Offers the quantities of the meshes. The chosen quantity stays chosen if the meshes still have this quantity.
     #offer(quantities) {
         const select = byId("color-by");
         const chosen = select.value;
@@ -114,7 +115,7 @@ export class Stage {
             byId("color-by").value = "";
             notify(error.message);
         }
-        // The visitor may have chosen again.
+        // The visitor may have chosen another quantity while the engine computed the colors.
         if (chosen === byId("color-by").value || !found) {
             this.view?.color(found?.meshes ?? []);
             showLegend(found?.legend);
@@ -134,15 +135,15 @@ export class Stage {
         }
     }
 
-    /// Shows a note why there is no picture, or why it is from an earlier run.
+    /// Shows a note that says why there is no picture, or why the picture is from an earlier run.
     keep(reason) {
         this.detach();
         byId("stage-note").textContent = (this.#meshes.length ? "This is the scene of an earlier run. " : "") + reason;
         byId("stage-note").hidden = false;
     }
 
-    /// Returns those picked elements that the meshes still have. An edge is the same edge if it has the same vertices,
-    /// because recipes refer to edges by their vertices.
+    /// Returns those picked elements that the meshes still have. Edges are identified by their vertices, because
+    /// recipes also refer to edges by their vertices.
     #kept() {
         return this.#picks.flatMap((pick) => {
             const mesh = this.#meshes.find(({ name }) => name === pick.mesh.name);
@@ -219,7 +220,7 @@ export class Stage {
             const isForPicked = target.selectedOptions[0].parentElement.label.startsWith("Picked");
             target.value = "";
             if (!isForPicked) {
-                // After a step for the whole mesh, the numbers often belong to other elements. So no elements stay
+                // After a step for the whole mesh, the numbers often belong to other elements, so no elements stay
                 // picked.
                 this.#select([]);
             }

@@ -21,7 +21,7 @@ export class StepForm {
         byId("step-fields").addEventListener("submit", (event) => event.preventDefault());
     }
 
-    /// Shows inputs for the step at the cursor. Inputs in use are kept.
+    /// Shows inputs for the step at the cursor. An input that the visitor is using keeps its value.
     show() {
         const { text, cursor } = this.#editor;
         const index = stepAt(text, cursor);

@@ -13,7 +13,7 @@ const server = await serve(folder);
 let origin = `http://127.0.0.1:${server.address().port}`;
 let browser = await chromium(tools, executable);
 
-/// Opens the page in a new profile, and records what must not happen: errors, and requests to other servers.
+/// Opens the page in a new profile, and records errors and requests to other servers, which must not happen.
 async function open({ fragment = "", size = [1280, 800], scheme = "light", before = () => {} } = {}) {
     const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, colorScheme: scheme });
     const page = await context.newPage();
@@ -758,7 +758,7 @@ const tests = {
         await page.locator("#add-step").selectOption({ label: "SplitEdges" });
         await done("SplitEdges");
         assert.equal(await text(page, "#picked"), "Click an element of a mesh to pick it.");
-        // After a step for the whole mesh, the numbers belong to other elements. So no elements stay picked.
+        // After a step for the whole mesh, the numbers belong to other elements, so no elements stay picked.
         await page.locator("#number").fill("0");
         await page.locator("#add-step").selectOption("CatmullClark(levels: 2)");
         await done("CatmullClark");

@@ -30,8 +30,8 @@ export class View {
     #radius = 1;
     #style = { smooth: false, edges: true, up: "y" };
     #waiting = false;
-    /// Receives `{ mesh, kind, number, vertices }` for a click, and whether Shift is pressed. Receives `null` for a
-    /// click beside the meshes.
+    /// Called after a click with two values. The first value is the element, as `{ mesh, kind, number, vertices }`, or
+    /// `null` for a click beside the meshes. The second value says whether the click adds to the picked elements.
     onPick = () => {};
     kind = "face";
     /// Whether a click adds to the selection without Shift.
@@ -62,7 +62,7 @@ export class View {
         const before = this.#radius;
         const sawAll = this.#seesAll();
         const box = new THREE.Box3();
-        // Positions are relative to the center of the first mesh, since numbers of 32 bits are precise only near the
+        // Positions are relative to the center of the first mesh, because numbers of 32 bits are precise only near the
         // origin.
         const center = meshes.length ? new THREE.Vector3(...meshes[0].center).applyMatrix4(placement(meshes[0], 0)) : new THREE.Vector3();
         this.#retire(keep, this.#center.clone().sub(center));
@@ -193,8 +193,8 @@ export class View {
         this.fit(this.#camera.position.clone().sub(this.#controls.target));
     }
 
-    /// Moves the camera so that all meshes are in the view, if all of them were in the view before a change but are not
-    /// now.
+    /// If all meshes were in the view before a change but are not now, moves the camera so that all meshes are in the
+    /// view.
     #keepAll(sawAll) {
         if (sawAll && !this.#seesAll()) {
             this.refit();

@@ -20,8 +20,8 @@ export function runEnds() {
     keep("unfinished", "");
 }
 
-/// Returns whether the last run was a run of this text with these values, and has not ended. This happens if the run
-/// was canceled, if it exhausted the memory, or if the browser ended the page.
+/// Returns whether the last run was a run of this text with these values, and has not ended. A run does not end if it
+/// is canceled or exhausts the memory, or if the browser ends the page.
 export function isUnfinished(run) {
     return kept("unfinished") === run;
 }
@@ -30,7 +30,7 @@ function keep(key, text) {
     try {
         localStorage.setItem(key, text);
     } catch {
-        // If the browser does not allow it, the text is lost when the page is closed.
+        // If the browser does not allow the page to store data, the text is lost when the page is closed.
     }
 }
 

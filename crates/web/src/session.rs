@@ -138,8 +138,8 @@ impl Session {
     /// - `files`, the paths of the written files
     /// - `objects`, each with `name`, `kind`, `vertices`, `edges` and `faces`
     ///
-    /// Afterwards, [`picture`](Self::picture) and [`arrays`](Self::arrays) show the scene at the end, even if the run
-    /// failed.
+    /// After a run, [`picture`](Self::picture) and [`arrays`](Self::arrays) show the scene at the end of this run, even
+    /// if the run failed.
     pub fn run(
         &mut self,
         path: &str,

@@ -6,7 +6,7 @@
 //!   start_threads(n)  <-------------  after all are ready               run_thread(), which never returns
 //! ```
 //!
-//! This module is only in a build with shared memory. Browsers share memory only if the page is isolated from other
+//! Only builds with shared memory contain this module. Browsers share memory only if the page is isolated from other
 //! origins.
 
 #![expect(unreachable_pub, reason = "wasm-bindgen exports only public functions")]

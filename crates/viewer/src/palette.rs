@@ -19,8 +19,8 @@ pub(crate) struct Palette {
 }
 
 impl Palette {
-    /// Creates a search without a query. Of operations that match equally well, those that take the picked elements
-    /// come first.
+    /// Creates a search without a query. If several operations match equally well, the operations that take the picked
+    /// elements come first.
     pub(crate) fn new(editor: &Editor) -> Self {
         let kind = editor.picked().map(Picked::kind);
         let entries = editor.registry().entries().iter();
@@ -32,8 +32,8 @@ impl Palette {
     }
 }
 
-/// Returns the operations that match a query, the best first. Of operations that match equally well, those in `first`
-/// come first. An empty query matches all operations.
+/// Returns the operations that match a query, the best first. If several operations match equally well, the operations
+/// in `first` come first. An empty query matches all operations.
 pub(crate) fn search<'r>(
     registry: &'r Registry,
     query: &str,

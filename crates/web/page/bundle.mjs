@@ -1,5 +1,5 @@
-// Writes the page: bundles the scripts, copies the engine, and renders the gallery: bundle.mjs PACKAGE THREADS TOOLS OUT. THREADS is
-// the folder of the package with threads, which may be missing.
+// Writes the page: bundles the scripts, copies the engine, and renders the gallery. Usage:
+// bundle.mjs PACKAGE THREADS TOOLS OUT. THREADS is the folder of the package with threads, which may be missing.
 import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createHash } from "node:crypto";
 import { createRequire } from "node:module";

@@ -25,15 +25,15 @@ export function counted(n, one, many = `${one}s`) {
     return `${n.toLocaleString("en")} ${n === 1 ? one : many}`;
 }
 
-/// Returns a size in bytes for people.
+/// Returns a text for a size in bytes, such as `1.50 kB`.
 export function sizeText(bytes) {
     return bytes < 1000 ? counted(bytes, "byte")
         : bytes < 1e6 ? `${(bytes / 1e3).toPrecision(3)} kB`
             : bytes < 999e6 ? `${(bytes / 1e6).toPrecision(3)} MB` : `${(bytes / 1e9).toPrecision(3)} GB`;
 }
 
-/// Returns a function that postpones `action`: the action is called when no call of the function has come for the given
-/// number of milliseconds.
+/// Returns a function that calls `action` with a delay of the given number of milliseconds. Each further call of the
+/// returned function before `action` is called restarts the delay.
 export function debounced(milliseconds, action) {
     let timer;
     return (...values) => {

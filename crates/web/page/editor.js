@@ -23,7 +23,7 @@ const colors = HighlightStyle.define([
     { tag: tags.punctuation, color: "var(--code-punctuation)" },
 ]);
 
-/// A problem below its line.
+/// A problem that is shown below its line.
 class Message extends WidgetType {
     constructor(problem) {
         super();
@@ -43,7 +43,7 @@ class Message extends WidgetType {
 
 const showMessages = StateEffect.define();
 
-/// The problems below their lines, until the text changes.
+/// Shows problems below their lines until the text changes.
 const messages = StateField.define({
     create: () => Decoration.none,
     update(shown, transaction) {
@@ -65,8 +65,8 @@ function tooltips(describe) {
 export class Editor {
     #view;
 
-    /// Creates the editor. `onChange` is called after each change of the text, `onMove` after the cursor has moved, `complete` finds completions, and
-    /// `describe(text, position, word)` returns the description of a word or `null`.
+    /// Creates the editor. `onChange` is called after each change of the text, `onMove` after the cursor has moved,
+    /// `complete` finds completions, and `describe(text, position, word)` returns the description of a word or `null`.
     constructor(parent, { onChange, onMove, complete, describe, run }) {
         const extensions = [
             keymap.of([{ key: "Mod-Enter", run: () => { run(); return true; } }]),
@@ -105,8 +105,8 @@ export class Editor {
         this.#view.dispatch({ changes: { from, to, insert } });
     }
 
-    /// Replaces the whole text, as one change, and puts the cursor after the last step. The change can be undone, except for
-    /// the first text.
+    /// Replaces the whole text, as one change, and puts the cursor after the last step. The change can be undone,
+    /// except for the first text.
     set text(text) {
         const end = endOfSteps(text)?.end ?? text.length;
         const { length } = this.#view.state.doc;
@@ -133,7 +133,7 @@ export class Editor {
         this.#view.focus();
     }
 
-    /// Adds a step after the last one. Returns false if the recipe has no list of steps.
+    /// Adds a step after the last step. Returns false if the recipe has no list of steps.
     addStep(step) {
         const place = endOfSteps(this.text);
         if (!place) {

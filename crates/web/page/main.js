@@ -130,8 +130,8 @@ async function checkText(keepSteps) {
     }
 }
 
-/// Runs the recipe. If a recipe is already running, the new run starts after that run has ended. Returns whether the run
-/// succeeded.
+/// Runs the recipe. If a recipe is already running, the new run starts after that run has ended. Returns whether the
+/// run succeeded.
 async function run() {
     if (running) {
         runAgain = true;

@@ -26,7 +26,8 @@ export class Steps {
     #steps = [];
     #begin = 0;
 
-    /// `reveal` moves to a place of the recipe. `choose` is called with the number and the line of a step that is clicked.
+    /// `reveal` moves to a place of the recipe. `choose` is called with the number and the line of a step that is
+    /// clicked.
     constructor(reveal, choose) {
         this.reveal = reveal;
         this.choose = choose;

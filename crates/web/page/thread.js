@@ -1,5 +1,5 @@
-// A thread of the engine. The page sends the compiled engine and its memory, and receives an empty message once the thread waits
-// for work.
+// A thread of the engine. The page sends the compiled engine and its memory, and receives an empty message once the
+// thread waits for work.
 import init, { run_thread as runThread } from "core";
 
 onmessage = async ({ data: { module, memory } }) => {

@@ -141,8 +141,8 @@ export class View {
         this.style({});
     }
 
-    /// Moves the camera so that all meshes fit the view. `front` is the direction to the camera. Defaults to the front, a little
-    /// from the side and from above.
+    /// Moves the camera so that all meshes fit the view. `front` is the direction to the camera. Defaults to the front,
+    /// a little from the side and from above.
     fit(front = this.#style.up === "z" ? new THREE.Vector3(0.55, -1, 0.5) : new THREE.Vector3(0.55, 0.5, 1)) {
         const up = this.#style.up === "z" ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
         const center = this.box?.isEmpty() === false ? this.box.getCenter(new THREE.Vector3()) : new THREE.Vector3();

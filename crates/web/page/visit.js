@@ -1,4 +1,4 @@
-// What the browser keeps between visits: the text of the recipe, and which run has not ended.
+// Data that the browser keeps between visits: the text of the recipe, and the run that has not ended.
 
 /// Keeps the text for the next visit.
 export function remember(text) {

@@ -1,4 +1,4 @@
-// A sample that uses the types of the package. It is only checked by `tsc`, not run.
+// A sample that uses the types of the package. This file is checked by `tsc`, but not run.
 import { load, run, Session, type Checked, type Event, type Problem, type Result } from "meshwright";
 
 const recipe = "(recipe: 1, steps: [Cube(name: \"a\")])";

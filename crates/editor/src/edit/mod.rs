@@ -69,7 +69,7 @@ pub struct Editor {
     number: u64,
     /// The version of the text to which `run` belongs. `None` if `run` belongs to a preview.
     run_version: Option<u64>,
-    /// The version of the text that was last requested to run. `None` if a preview was requested.
+    /// The version of the text for which the last run was requested. `None` if the last request was for a preview.
     requested: Option<u64>,
     /// Whether `run` belongs to the newest request to run a text.
     is_checked: bool,
@@ -111,7 +111,7 @@ pub enum OpenError {
     Kind(PathBuf, String),
 }
 
-/// The things that have changed since the last call of [`Editor::poll`].
+/// The changes since the last call of [`Editor::poll`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Update {
     /// Whether the scene at the cursor has possibly changed.

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::{Command, CommandError, Editor};
 use crate::panel::number;
 
-/// How picked elements move. The axes of `Rotate` and `Scale` are those that [`Editor::picked_axes`] returns.
+/// How picked elements move. `Rotate` and `Scale` use the axes that [`Editor::picked_axes`] returns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Movement {
     /// Move by an offset in scene units, along the axes of the scene.

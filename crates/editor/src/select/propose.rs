@@ -83,7 +83,7 @@ fn means(text: &str, scene: &Scene, object: &Object, picked: &Picked, stream: &s
     found.is_ok_and(|found| found == picked.elements)
 }
 
-/// A candidate: a selection of which it is not yet known whether it selects exactly the picked elements.
+/// A candidate: a selection that possibly selects exactly the picked elements.
 struct Candidate {
     text: String,
     /// Whether the selection is written without `Expect`. A selection needs no `Expect` if it selects all elements, or
@@ -340,7 +340,7 @@ fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
         .abs()
         .max(if low.is_finite() { low.abs() } else { 0.0 });
     if !low.is_finite() {
-        // Everything is picked.
+        // All elements that have a value are picked.
         return None;
     }
     (high - low > 1e-6 * scale).then(|| short_between(low, high))

@@ -72,23 +72,24 @@ impl Outline {
         }
     }
 
-    /// Returns the tree of the text.
+    /// Returns the syntax tree of the text.
     pub fn root(&self) -> &Value {
         &self.root
     }
 
-    /// Returns the tree of the operation `Name(..)` of a step.
+    /// Returns the syntax tree of the operation `Name(..)` of a step.
     pub fn run_of(&self, step: usize) -> Option<&Value> {
         let written = self.written(step)?;
         Some(run_of(written))
     }
 
-    /// Returns the tree of a step with the fields around its operation.
+    /// Returns the syntax tree of a step, including the fields around the operation of the step.
     pub(super) fn written(&self, step: usize) -> Option<&Value> {
         self.root.field("steps")?.items()?.get(step)
     }
 
-    /// Returns the index of the step that contains an offset, or of the last step before it.
+    /// Returns the index of the step that contains an offset or, if no step contains the offset, of the last step
+    /// before the offset.
     pub fn step_at(&self, offset: usize) -> Option<usize> {
         self.steps
             .iter()

@@ -13,7 +13,7 @@ pub(crate) enum Pane {
     Steps,
     /// The text of the recipe.
     Text,
-    /// The picture.
+    /// The view of the scene.
     View,
     /// The picked elements and the parameters of a step.
     Inspector,

@@ -11,12 +11,12 @@ pub(super) struct Pipelines {
     pub(super) chunk_layout: wgpu::BindGroupLayout,
     pub(super) background: wgpu::RenderPipeline,
     pub(super) surface: wgpu::RenderPipeline,
-    /// Surfaces of which only the lines are drawn.
+    /// Draws only the lines of surfaces.
     pub(super) wire: wgpu::RenderPipeline,
     pub(super) line: wgpu::RenderPipeline,
-    /// The parts of lines that surfaces hide.
+    /// Draws the parts of lines that surfaces hide.
     pub(super) hidden: wgpu::RenderPipeline,
-    /// Colored triangles on surfaces.
+    /// Draws colored triangles on surfaces.
     pub(super) patch: wgpu::RenderPipeline,
 }
 

@@ -6,7 +6,7 @@ use eframe::wgpu;
 use render::{Texture, TextureCache};
 use scene::{Filter, Wrap};
 
-/// An image on the graphics card, and how it is sampled.
+/// An image on the graphics card, and the sampler for this image.
 type Sampled = (wgpu::TextureView, wgpu::Sampler);
 
 /// The textures of the objects that are drawn. A texture is decoded and uploaded once for all objects.

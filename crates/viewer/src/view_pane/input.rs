@@ -28,7 +28,7 @@ impl Outline {
         }
     }
 
-    /// Returns the area in the view at `rect`.
+    /// Returns the area relative to the upper left corner of `rect`, which is the rectangle of the view in the window.
     fn area(&self, rect: Rect) -> Area {
         match self {
             Self::Box(start, end) => Area::Box(place(rect, *start), place(rect, *end)),
@@ -156,7 +156,7 @@ impl ViewPane {
     }
 }
 
-/// Returns a position in the view, from its upper left corner.
+/// Converts a position in the window to a position relative to the upper left corner of the view.
 pub(super) fn place(rect: Rect, at: Pos2) -> DVec2 {
     DVec2::new(f64::from(at.x - rect.left()), f64::from(at.y - rect.top()))
 }

@@ -31,7 +31,7 @@ impl Loss {
         loss
     }
 
-    /// Returns why the device is lost, if it is.
+    /// If the device is lost, returns the reason.
     pub(crate) fn reason(&self) -> Option<&str> {
         self.reason.get().map(String::as_str)
     }

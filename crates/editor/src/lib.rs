@@ -1,6 +1,6 @@
 //! The logic of the editor, without its user interface. An editor has a document, which is the text of a recipe, and a
-//! thread that runs this recipe. The editor describes picked elements by selections: expressions such as `Sharp(above:
-//! 30)`. The editor writes the commands of the user into the text as steps.
+//! thread that runs this recipe. The editor describes picked elements by selections: expressions such as
+//! `Sharp(above: 30)`. The editor writes the commands of the user into the text as steps.
 //!
 //! ```text
 //! text --parse--> recipe --run from the first step that is not known--> snapshots --> view

@@ -25,8 +25,8 @@ use crate::{Arrays, Colors};
 
 static REGISTRY: LazyLock<Registry> = LazyLock::new(ops_all::registry);
 
-/// The memory budget for the meshes of a run, and for rendering a picture, in bytes. WebAssembly can address at most 4
-/// GiB.
+/// The memory budget for the meshes of a run, and for rendering a picture, in bytes. WebAssembly can address at
+/// most 4 GiB.
 const BUDGET: u64 = 1 << 30;
 
 /// The minimum time between two progress events.

@@ -117,8 +117,8 @@ impl<'v> Place<'v> {
     }
 }
 
-/// Returns the text of a new entry for the part of a path that does not exist in the text yet. For example, `["style",
-/// "wireframe"]` becomes `style: (wireframe: new)`.
+/// Returns the text of a new entry for the part of a path that does not exist in the text yet. For example,
+/// `["style", "wireframe"]` becomes `style: (wireframe: new)`.
 fn written(path: &[String], new: &str) -> Option<String> {
     let mut text = new.to_owned();
     for (i, item) in path.iter().enumerate().rev() {

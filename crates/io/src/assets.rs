@@ -12,7 +12,7 @@ use store::{Store, StoreError, folder_of};
 ///
 /// # Errors
 ///
-/// Returns the reason why the path is refused, as the end of a message that begins with the path, such as `is empty`.
+/// Returns the reason why the path is refused, for example `is empty`. The caller puts the path before the reason.
 pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
     if name.is_empty() {
         return Err("is empty");
@@ -47,8 +47,7 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
 ///
 /// # Errors
 ///
-/// Returns the reason why the URI is refused, as the end of a message that begins with the URI, such as `has a
-/// backslash`.
+/// Returns the reason why the URI is refused, for example `has a backslash`. The caller puts the URI before the reason.
 pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     if uri.contains('\\') {
         return Err("has a backslash");
@@ -93,8 +92,8 @@ fn hex(digit: u8) -> Option<u8> {
         .and_then(|value| u8::try_from(value).ok())
 }
 
-/// Encodes a file name as a URI reference (RFC 3986). All characters that are not unreserved characters are
-/// percent-encoded.
+/// Encodes a file name as a URI reference (RFC 3986). Only unreserved characters stay as they are; all other characters
+/// are percent-encoded.
 pub(crate) fn percent_encoded(name: &str) -> String {
     let encode = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
@@ -110,9 +109,8 @@ pub(crate) fn percent_encoded(name: &str) -> String {
 pub struct FileDependency {
     /// The path of the file.
     pub path: PathBuf,
-    /// True if the program read the file or tried to read it, false if the program only checked whether the file
-    /// exists. Because failed attempts to read a file also set the flag, the file can be missing even if the flag is
-    /// true.
+    /// True if the program tried to read the file, even if the file is missing. False if the program only checked
+    /// whether the file exists.
     pub is_read: bool,
 }
 
@@ -122,8 +120,8 @@ pub(crate) struct Assets<'a> {
     store: &'a dyn Store,
     /// The path of the model file.
     pub(crate) path: &'a Path,
-    /// Folders that are searched for images before the folder of the model file is searched. Their paths are relative
-    /// to the folder of the model file.
+    /// The folders in which images are searched first. The folder of the model file is searched after these folders.
+    /// Their paths are relative to the folder of the model file.
     pub(crate) image_folders: Vec<PathBuf>,
     seen: BTreeSet<FileDependency>,
 }

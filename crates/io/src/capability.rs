@@ -12,7 +12,7 @@ use crate::{Format, Rows, gltf};
 pub enum Storage {
     /// Nothing.
     Lost,
-    /// All values, some values or no value, depending on the values themselves.
+    /// All values, some values or none. The values themselves determine which of them are stored.
     Partial,
     /// All finite values.
     Kept,
@@ -23,7 +23,7 @@ pub enum Storage {
 pub struct Stored<'a> {
     /// The format.
     pub format: Format,
-    /// For `.csv` files, the kind of elements that the rows of the file list.
+    /// For `.csv` files: the kind of elements in the table. Each element has a row.
     pub rows: Rows,
     /// Whether the mesh has an attribute with this domain and name.
     pub has: &'a dyn Fn(Domain, &str) -> bool,
@@ -39,9 +39,9 @@ impl Stored<'_> {
         }
     }
 
-    /// Returns how much of an attribute the format stores. Of `values`, only the type is used. If `values` is `None`,
-    /// the attribute is assumed to have the usual type of attributes with this name. If attributes with this name have
-    /// no usual type, the result is [`Storage::Partial`] unless it is the same for all types.
+    /// Returns how much of an attribute the format stores. Only the type of `values` matters. If `values` is `None`,
+    /// the function assumes the usual type for this name. If there is no usual type and the result would depend on the
+    /// type, returns [`Storage::Partial`].
     pub fn storage(&self, domain: Domain, name: &str, values: Option<&Values>) -> Storage {
         let of_type = |values: &Values| self.storage_of(domain, name, values);
         if let Some(values) = values {

@@ -14,7 +14,7 @@ use mesh::parallel;
 /// because the computed area of a zero-area face is rarely exactly 0.
 const DEGENERATE_RATIO: f64 = 1e-14;
 
-/// The number of groups into which faces are divided according to a hash, to find duplicate faces. Duplicate faces are
+/// To find duplicate faces, the hash of each face assigns it to one of this number of groups. Duplicate faces are
 /// always in the same group. The groups are processed in parallel.
 const N_GROUPS: usize = 16;
 
@@ -87,9 +87,8 @@ fn corners(polygons: &Polygons, f: usize) -> &[u32] {
     &polygons.corners[polygons.offsets[f] as usize..polygons.offsets[f + 1] as usize]
 }
 
-/// Returns the polygons that have repeated corners and keep at least three corners without them. A corner is repeated
-/// if it has the same vertex as the previous corner. In `is_kept`, the flag of each repeated corner of these polygons
-/// becomes false.
+/// Returns the polygons that have repeated corners and at least three other corners. A corner is repeated if it has the
+/// same vertex as the previous corner. Sets the flags in `is_kept` to false for the repeated corners of these polygons.
 fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> {
     let kept_in = |corners: &[u32]| {
         let before = corners.iter().cycle().skip(corners.len().max(1) - 1);

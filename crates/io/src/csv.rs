@@ -10,10 +10,10 @@
 //! | name of an attribute | a number; for a tag, 1 if the element has the tag, otherwise 0 |
 //! | `name[0]`, `name[1]`, ... | the components of a vector |
 //!
-//! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Each number is
-//! written with as few digits as possible, but a reader restores exactly the same 64-bit number. Numbers that are not
-//! finite are written as `nan`, `inf` and `-inf`. If the name of an attribute is already the name of another column, a
-//! number is appended to the name of the attribute.
+//! Each line ends with a line feed. A field that contains commas, quotes or line breaks is quoted (RFC 4180). Each
+//! number gets only as many digits as a reader needs to restore exactly the same 64-bit number. Numbers that are not
+//! finite are written as `nan`, `inf` and `-inf`. If another column already has the name of an attribute, a number is
+//! appended to the name of the attribute.
 
 use mesh::{Domain, FaceId, HalfEdgeId, Mesh};
 use scene::{Geometry, Object, Scene};
@@ -103,8 +103,9 @@ impl Parts {
         Self(scene.objects().iter().map(part).collect())
     }
 
-    /// Returns the object that contains the vertex or face of the current row, which is the last object for which
-    /// `has_started` returns true. If there are several objects, appends the name of the returned object to the row.
+    /// Returns the object that contains the vertex or face of the current row. `has_started` returns whether an object
+    /// begins at or before this vertex or face. If there are several objects, appends the name of the returned object
+    /// to the row.
     fn push(&self, out: &mut Vec<u8>, has_started: impl Fn(&Part) -> bool) -> &Part {
         let part = &self.0[self.0.partition_point(has_started) - 1];
         if self.0.len() > 1 {
@@ -188,8 +189,8 @@ fn quoted(name: &str) -> String {
     }
 }
 
-/// Returns the name if it is unused. If the name is used, appends the smallest number (2 or more) that makes the name
-/// unused.
+/// Returns the name if it is unused. Otherwise, appends a number to it: the smallest number from 2 that gives an unused
+/// name.
 pub(crate) fn unused(name: String, is_used: impl Fn(&str) -> bool) -> String {
     if !is_used(&name) {
         return name;

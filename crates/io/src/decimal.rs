@@ -9,13 +9,13 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
         [b'+' | b'-', rest @ ..] => rest,
         _ => text,
     };
-    // A number must start with a digit or a point, so words such as `nan` and `inf` are refused.
+    // After the sign, a number must start with a digit or a point. Words such as `nan` and `inf` are refused.
     matches!(unsigned, [b'0'..=b'9' | b'.', ..]).then_some(())?;
     let (x, length) = fast_float2::parse_partial::<f64, _>(text).ok()?;
     x.is_finite().then_some((x, length))
 }
 
-/// Parses at most eight digits from index `at` on. Returns the value and the number of the digits.
+/// Parses the digits that begin at index `at`, but at most eight of them. Returns their value and their count.
 ///
 /// Processes all digits at once as the bytes of one 64-bit word (Lemire, "Quickly parsing eight digits", 2018).
 #[inline]
@@ -36,8 +36,8 @@ pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     (low.wrapping_add(high) >> 32, count as usize)
 }
 
-/// Returns the eight bytes from index `at` on as a 64-bit word. The first byte is the lowest byte of the word. Bytes
-/// beyond the end of the text are 0.
+/// Returns the eight bytes that begin at index `at`, as a 64-bit word. The first byte is the lowest byte of the word.
+/// Bytes beyond the end of the text are 0.
 #[inline]
 fn eight_bytes(text: &[u8], at: usize) -> u64 {
     if let Some(&[a, b, c, d, e, f, g, h]) = text.get(at..at + 8) {
@@ -50,8 +50,8 @@ fn eight_bytes(text: &[u8], at: usize) -> u64 {
     u64::from_le_bytes(bytes)
 }
 
-/// Appends the shortest decimal number that restores `x` when it is read. `x` must be finite. Very large and very small
-/// numbers get an exponent (`1e300`, `2.5e-9`).
+/// Appends the shortest decimal number that a reader converts back to exactly `x`. `x` must be finite. Very large and
+/// very small numbers get an exponent (`1e300`, `2.5e-9`).
 pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
     let mut buffer = zmij::Buffer::new();
     let text = buffer.format_finite(x).as_bytes();

@@ -112,7 +112,7 @@ impl ReadError {
 }
 
 /// The reason why a scene could not be written. No file was changed, with one exception: if the system fails to rename
-/// one of several files, the files that were renamed before it are already replaced.
+/// one of several files, the files before it have already been replaced.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {

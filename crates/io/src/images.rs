@@ -71,7 +71,7 @@ pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes
     notes.left_out("image-missing", n_further, None, what);
 }
 
-/// Adds the notes about missing images that [`load`] would add, without reading images. `paths` are the paths of the
+/// Adds the same notes about missing images as [`load`], but does not read the images. `paths` are the paths of the
 /// image files that materials refer to.
 pub(crate) fn note_missing<'p>(
     paths: impl IntoIterator<Item = &'p str>,
@@ -188,8 +188,8 @@ pub(crate) fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A scene, and the image files that must be written with it. If the format is OBJ or glTF, each image of the scene is
-/// either embedded or a path, so no image has both bytes and a path.
+/// A scene, and the image files that must be written with it. For OBJ and glTF, each image of the scene is either
+/// [`Image::Embedded`] or [`Image::File`], never [`Image::Loaded`].
 pub(crate) struct Settled<'a> {
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) files: Vec<(PathBuf, Content<'static>)>,

@@ -138,7 +138,7 @@ fn mark_copies(built: &mut BuildOutput, n_positions: usize) {
     built.mesh.insert_column(Domain::Vertex, column);
 }
 
-/// For each element of the mesh, the element of the input polygons whose attribute values it gets.
+/// For each element of the mesh, the element of the input polygons from which it gets its attribute values.
 struct Sources {
     n_positions: usize,
     /// For each copy of a split vertex, the original vertex. Copies come after the original vertices.

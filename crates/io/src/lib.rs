@@ -124,11 +124,11 @@ use save::{Content, save};
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// The name for objects that have no name in the file. If the file is an `.mws` file with a single object, the
-    /// object gets this name even if it has a name. If `None`, objects without a name get the name of the file without
-    /// its extension, and all objects of an `.mws` file keep their names. In glTF and COLLADA files, an object has the
-    /// name of its node or, if the node has no name, of its mesh. If several nodes of a glTF file share an object, the
-    /// name of the mesh comes first.
+    /// The name for objects that have no name in the file. If the file is an `.mws` file with a single object, this
+    /// name replaces the name of the object. If `None`, objects without a name get the name of the file without its
+    /// extension, and all objects of an `.mws` file keep their names. In glTF and COLLADA files, an object has the name
+    /// of its node or, if the node has no name, of its mesh. If several nodes of a glTF file share an object, the name
+    /// of the mesh takes precedence over the names of the nodes.
     pub name: Option<String>,
     /// How to handle polygons that do not form a clean mesh, for example duplicate faces.
     pub policies: Policies,
@@ -177,9 +177,8 @@ pub struct WriteOptions {
     /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. If this option is set, writing a
     /// file of any other format fails.
     pub quantization: Option<Quantization>,
-    /// For glTF, the maximum number of sets of four joints that are written for each vertex of a skinned mesh. If
-    /// `None`, the maximum is the number of sets in the original file of the mesh, or 1 if the mesh was not read from a
-    /// file.
+    /// For glTF, the maximum number of joint sets of a skinned mesh. In each set, a vertex has four joints. If `None`,
+    /// the maximum is the number of sets in the original file of the mesh, or 1 if the mesh was not read from a file.
     pub weight_sets: Option<u32>,
     /// The kind of elements of a `.csv` file. Each element has a row. If `None`, the rows list vertices. If this option
     /// is set, writing a file of any other format fails.
@@ -322,7 +321,7 @@ struct ParsedObject {
 enum Shape {
     Polygons(Polygons),
     Geometry(Geometry),
-    /// An object whose file stores its name and materials.
+    /// A complete object of an `.mws` file, with its name and materials.
     Object(Box<Object>),
 }
 
@@ -448,8 +447,8 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
 /// # Errors
 ///
 /// Returns a [`WriteError`] if the format cannot store the scene or the files cannot be written. If writing fails,
-/// existing files are unchanged, with one exception: if the system fails to rename one of several files, the files that
-/// were renamed before it are already replaced.
+/// existing files are unchanged, with one exception: if the system fails to rename one of several files, the files
+/// before it have already been replaced.
 pub fn write(
     store: &dyn Store,
     path: &Path,

@@ -24,8 +24,7 @@ pub struct Loss {
     pub reason: String,
 }
 
-/// If a loss has a domain, [`Loss::attribute`] is the name of an attribute or one of these names, which are not names
-/// of attributes.
+/// Names in [`Loss::attribute`] that are not names of attributes, although the loss has a domain.
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {
@@ -86,9 +85,9 @@ impl fmt::Display for Loss {
     }
 }
 
-/// Returns the number of values of an attribute of this domain that belong to elements. The arrays of corner attributes
-/// also have an entry for each boundary half-edge. These entries are not counted, because boundary half-edges are not
-/// corners.
+/// Returns the number of elements in this domain, which is also the number of values of an attribute. The array of a
+/// corner attribute has additional entries for boundary half-edges. These entries are not counted, because boundary
+/// half-edges are not corners.
 pub(crate) fn n_values(mesh: &Mesh, domain: Domain) -> usize {
     match domain {
         Domain::Corner => {

@@ -99,7 +99,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// The nouns that can be among the first words of the text of a note, in the plural.
+/// The plural nouns that [`singular`] converts if they are among the first words of a note.
 const NOUNS: [&str; 62] = [
     "animations",
     "attributes",
@@ -345,8 +345,8 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// Returns `name` if it is unused. If `name` is used, returns the first unused name of `name.2`, `name.3` and so
-    /// on, and adds a note.
+    /// Returns `name` if it is unused. If `name` is used, tries `name.2`, `name.3` and so on, returns the first unused
+    /// one, and adds a note.
     pub(crate) fn unique(&mut self, name: &str, notes: &mut Notes) -> String {
         let mut new = name.to_owned();
         while !self.taken.insert(new.clone()) {

@@ -15,8 +15,7 @@ pub enum Compression {
     Meshopt,
 }
 
-/// The numbers of bits with which the attributes are stored in quantized glTF files. Each of these numbers is from 8
-/// to 16.
+/// How many bits the numbers of each attribute have in quantized glTF files. Each field is from 8 to 16.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantization {
@@ -110,7 +109,8 @@ pub struct PackingReport {
     /// The size in bytes that the files would have without compression and quantization. Copied images are not counted,
     /// and compression with gzip is not considered.
     pub bytes_before: u64,
-    /// The size in bytes of the same files with compression and quantization, and also without copied images and gzip.
+    /// The size in bytes of the same files with compression and quantization. As in `bytes_before`, copied images and
+    /// gzip are not considered.
     pub bytes_after: u64,
     /// The largest distance between a position and its quantized position, in scene units. `None` if no positions are
     /// quantized. If the transform of a node has a shear, this value is an upper bound of the distance.

@@ -168,11 +168,11 @@ pub struct PeekRanges {
     pub degrees: RangeInclusive<u64>,
 }
 
-/// The maximum number of corners of a face whose vertices are compared with each other.
+/// A face is checked for repeated vertices only if it has at most this number of corners.
 pub(crate) const MAX_COMPARED: usize = 16;
 
-/// Whether the words are certainly indices of different elements. Returns true only if the words differ from each
-/// other, are all positive or all negative, and have no leading zeros.
+/// Returns true if the words are indices that certainly refer to different elements. The words must differ from each
+/// other, be all positive or all negative, and have no leading zeros.
 pub(crate) fn are_different(words: &[&[u8]]) -> bool {
     let is_index = |digits: &[u8]| {
         digits.first().is_some_and(|&first| first != b'0') && digits.iter().all(u8::is_ascii_digit)
@@ -251,7 +251,8 @@ impl PeekMesh {
         self.simple_corners = self.simple_corners.saturating_add(n.saturating_mul(degree));
     }
 
-    /// Adds the counts of faces and corners of `other`, and extends the range of the numbers of corners of a face.
+    /// Adds the counts of faces and corners of `other`, and updates the smallest and the largest number of corners of a
+    /// face.
     pub(crate) fn add(&mut self, other: &Self) {
         self.simple_faces = self.simple_faces.saturating_add(other.simple_faces);
         self.simple_corners = self.simple_corners.saturating_add(other.simple_corners);

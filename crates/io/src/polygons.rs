@@ -130,9 +130,9 @@ impl Polygons {
         gather(&mut self.attributes, Domain::Corner, &order);
     }
 
-    /// Moves the vertices by the morph targets with their weights, and then by the joints. If the vertices have no
-    /// joints, `to_scene` is applied instead. Removes the joint weights, which have no meaning without a skin. Returns
-    /// the number of normals that are left out.
+    /// Moves the vertices by the weighted morph targets, and then by the joints. If the vertices have no joints,
+    /// `to_scene` is applied instead. Removes the joint weights, which have no meaning without a skin. Returns the
+    /// number of normals that are left out.
     pub(crate) fn apply_pose(&mut self, pose: &Pose, to_scene: &DAffine3) -> usize {
         let n = self.positions.len();
         pose.morph(&self.attributes, &mut self.positions);
@@ -220,7 +220,7 @@ impl Polygons {
     }
 }
 
-/// In every column of a domain, the new value with index i is the old value with index `sources[i]`.
+/// Rearranges every column of a domain: the value at `sources[i]` moves to index i.
 pub(crate) fn gather(attributes: &mut Attributes, domain: Domain, sources: &[u32]) {
     for (of, mut column) in std::mem::take(attributes) {
         if of == domain {

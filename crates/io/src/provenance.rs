@@ -8,10 +8,10 @@ use store::Store;
 
 use crate::{Format, ReadError, gltf, gzip, mws};
 
-/// The number of bytes at the beginning of a file in which the provenance is searched. In glTF files, the whole JSON is
+/// The provenance is searched in this number of bytes at the beginning of a file. In glTF files, the whole JSON is
 /// searched.
 const HEAD: u64 = 1 << 20;
-/// The maximum number of decompressed bytes of a compressed glTF file that are read.
+/// At most this number of decompressed bytes of a compressed glTF file is read.
 const MAX_DOCUMENT: u64 = 1 << 30;
 
 /// Reads the provenance of a file. Returns `None` if the file has no provenance, for example because its format cannot
@@ -54,7 +54,7 @@ pub fn provenance(store: &dyn Store, path: &Path) -> Result<Option<String>, Read
     })
 }
 
-/// Returns the text `asset.extras.meshwright` of a glTF document.
+/// Returns the text at `asset.extras.meshwright` in a glTF document.
 fn of_document(json: &[u8]) -> Option<String> {
     let document: Value = serde_json::from_slice(json).ok()?;
     let text = document.pointer("/asset/extras/meshwright")?;

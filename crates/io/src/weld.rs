@@ -22,9 +22,9 @@ const CHUNK: usize = 1 << 15;
 const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
 
-/// Counts the vertices that a reader of the written file merges with an earlier vertex, for formats whose reader merges
-/// vertices with equal positions. Vertices without a face are not counted, because they are not written. Positions are
-/// compared after they are rounded to 32 bits.
+/// Counts the vertices that a later reading of the written file merges with an earlier vertex. The format must be one
+/// whose reader merges vertices with equal positions. Vertices without a face are not counted, because they are not
+/// written. Positions are compared after they are rounded to 32 bits.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
 }
@@ -113,8 +113,7 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
 }
 
 /// Like [`weld`], but merges two vertices only if their values of all vertex attributes are also equal. These
-/// attributes are joint weights and deltas of morph targets. Of the attribute values, only those of the remaining
-/// vertices are kept.
+/// attributes are joint weights and deltas of morph targets. Removes the attribute values of the merged vertices.
 pub(crate) fn weld_equal(
     positions: &[DVec3],
     attributes: &mut Attributes,

@@ -51,7 +51,7 @@ pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
     vertex_values(mesh, uvs, |a, b| bits(a) == bits(b))
 }
 
-/// The reason in the report of a loss of non-finite numbers.
+/// The reason that is reported if non-finite numbers are lost.
 pub(crate) const NOT_FINITE: &str = "non-finite numbers, written as 0";
 
 /// Returns the values of a column, with non-finite values replaced by zero. Adds a loss for the replaced values.

@@ -283,8 +283,8 @@ pub(super) fn child<'a>(node: Node<'a>, name: &'static str) -> Option<Node<'a>> 
     named(node, name).next()
 }
 
-/// Follows a path of names from `node` to its child, then to the child of that child, and so on. Returns the last
-/// element.
+/// Follows a path of element names. The first name belongs to a child of `node`, and each further name to a child of
+/// the element before. Returns the last element.
 pub(super) fn below<'a>(node: Node<'a>, names: &[&'static str]) -> Option<Node<'a>> {
     names.iter().try_fold(node, |node, name| child(node, name))
 }
@@ -392,7 +392,8 @@ fn word_place(node: Node, word: &str) -> TextPosition {
     }
 }
 
-/// Creates an error with the position of word `k`, where the words in the texts of all `lists` are numbered from 0.
+/// Creates an error at word `k` of `lists`. The words are numbered from 0, through the texts of all elements in
+/// `lists`.
 pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {

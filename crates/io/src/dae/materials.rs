@@ -17,8 +17,8 @@ enum ChannelValue {
     Texture(String),
 }
 
-/// Reads the material of a `<material>` element. `known` contains the materials that were read before. The key is the
-/// index of a `<material>` element or, for the appearance that an effect defines, of an `<effect>` element.
+/// Reads the material of a `<material>` element. `known` contains the materials and effects that were read before. The
+/// key is the index of the `<material>` or `<effect>` element. An effect is stored as a material without a name.
 ///
 /// # Errors
 ///

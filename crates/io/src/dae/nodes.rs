@@ -185,7 +185,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 );
                 continue;
             };
-            // The name of an object is stored several times, so its length also counts.
+            // The cost includes the lengths of the names, because the name of an object is stored several times.
             let names = name(node).len() + name(geometry).len();
             self.document.take(instance, cost::OBJECT + 8 * names)?;
             let materials = self.bound_materials(instance)?;

@@ -1,5 +1,5 @@
-//! Converts the indices in a list of polygons to polygons. A list consists of triangles, polygons with any number of
-//! corners, strips of triangles, or fans of triangles.
+//! Builds polygons from the indices in an element such as `<polylist>`. The element lists triangles, polygons with any
+//! number of corners, strips of triangles, or fans of triangles.
 
 use super::document::{
     Document, Node, child, elements, error_at, is, named, natural, push_indices, required,

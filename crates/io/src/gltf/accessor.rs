@@ -15,8 +15,8 @@ use super::views::{Reader, Rows};
 use crate::fault::Fault;
 use mesh::parallel;
 
-/// An accessor without a buffer view can have at most this number of elements or, if that is more, as many elements as
-/// the buffers have bytes. All elements of such an accessor are zero, unless sparse values replace them.
+/// Limits the number of elements of an accessor without a buffer view. The limit is this number or the number of bytes
+/// in all buffers, whichever is larger. All elements of such an accessor are zero, unless sparse values replace them.
 const MIN_ZEROS: u64 = 1 << 16;
 impl Reader<'_> {
     /// The number of elements of an accessor.

@@ -215,9 +215,10 @@ pub(super) fn morphs(
 /// The normals or tangents of a mesh, and the morph targets that change them.
 pub(super) struct Directions {
     semantic: Semantic,
-    /// Returns the accessor of a morph target with the changes of normals or tangents.
+    /// Returns the accessor that stores how a morph target changes the normals or tangents.
     changes: fn(&MorphTarget) -> Option<&Index<Accessor>>,
-    /// Returns the name of the mesh attribute for the changed normals or tangents of the morph target with this index.
+    /// Returns the name of the mesh attribute that stores the normals or tangents as the morph target with this index
+    /// changes them.
     name: fn(usize) -> String,
     rule: Rule,
     /// The indices of the morph targets that change the normals or tangents, in ascending order.
@@ -262,15 +263,16 @@ impl Directions {
         self
     }
 
-    /// Returns the names of the attributes with the changed normals or tangents.
+    /// Returns the names of the attributes that store the changed normals or tangents.
     pub(super) fn names(&self) -> impl Iterator<Item = String> {
         self.targets.iter().map(|&t| (self.name)(t))
     }
 
-    /// Reads the normals or tangents of a primitive with `n` vertices after each morph target was applied with the
-    /// weight 1. Returns a column for each target in `targets`. `own` contains the normals or tangents without morph
-    /// targets. If `own` is `None`, the columns are zero. A value has three or more numbers, and morph targets change
-    /// the first three. `here` is the location of the primitive, for errors.
+    /// Reads how the morph targets change the normals or tangents of a primitive with `n` vertices. Returns a column
+    /// for each target in `targets`: the normals or tangents if only this target is applied, with the weight 1. `own`
+    /// contains the normals or tangents without morph targets. If `own` is `None`, the columns are zero. A value has
+    /// three or more numbers, and morph targets change the first three. `here` is the location of the primitive, for
+    /// errors.
     ///
     /// # Errors
     ///

@@ -183,8 +183,7 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
     }
 }
 
-/// Checks that the indices in skins and animations, and the indices of skins in nodes, refer to existing nodes, skins
-/// and samplers.
+/// Checks that everything that skins and animations refer to exists, and that the skins of nodes exist.
 ///
 /// # Errors
 ///

@@ -13,8 +13,8 @@ use mesh::parallel;
 /// The triangles of one material, in the order of the faces that they are cut from.
 pub(super) struct Faces {
     pub(super) n_triangles: usize,
-    /// The corners of the triangles, as indices of glTF vertices. `None` if these are the corners of all faces of the
-    /// mesh, which has only triangles.
+    /// The corners of the triangles, as indices of glTF vertices. `None` if the mesh has only triangles and all of them
+    /// have this material.
     pub(super) corners: Option<Vec<u32>>,
 }
 

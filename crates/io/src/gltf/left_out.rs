@@ -1,5 +1,5 @@
-//! Counts supported content of a document that the reader leaves out. For example, the glTF scene does not use a part
-//! of the document, or a scene of this program cannot store a member.
+//! Counts supported content of a document that the reader leaves out. A part of the document is left out, for example,
+//! if the glTF scene does not use it, or if a scene of this program cannot store it.
 
 use std::collections::BTreeMap;
 
@@ -69,8 +69,8 @@ struct Used {
     textures: Vec<bool>,
     samplers: Vec<bool>,
     images: Vec<bool>,
-    /// The number of references from materials to textures that have no image, or an image with neither a URI nor a
-    /// buffer view.
+    /// The number of references from materials to textures without a supported image. The texture has no image, or the
+    /// image has neither a URI nor a buffer view.
     without_image: usize,
 }
 
@@ -175,7 +175,7 @@ fn elements<'a>(json: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> +
     list.into_iter().flatten()
 }
 
-/// Counts the members `extras` that are left out, such as those of primitives and accessors.
+/// Counts the `extras` members that are left out, such as those of primitives and accessors.
 fn extras(json: &Value) -> usize {
     let members = json.as_object().into_iter().flatten();
     let of_member = |(key, value): (&String, &Value)| match key.as_str() {
@@ -199,7 +199,7 @@ fn has_extras(json: &Value) -> bool {
     json.get("extras").is_some_and(|extras| !extras.is_null())
 }
 
-/// Counts the members `extras` in a part of the JSON. The recursion is not too deep, because the JSON parser limits the
+/// Counts the `extras` members in a part of the JSON. The recursion is not too deep, because the JSON parser limits the
 /// nesting.
 fn count_extras(json: &Value) -> usize {
     match json {

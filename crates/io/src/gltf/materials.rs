@@ -63,8 +63,8 @@ impl<'a> Materials<'a> {
         to.normal_texture = texture(&from.normal_texture, "normalTexture")?;
         to.occlusion_texture = texture(&from.occlusion_texture, "occlusionTexture")?;
         to.emissive_texture = texture(&from.emissive_texture, "emissiveTexture")?;
-        // Without a texture that was read, the scale of the normal texture and the strength of the occlusion texture
-        // keep their defaults.
+        // The scale of a normal texture and the strength of an occlusion texture keep their defaults if the texture was
+        // not read.
         if let (Some(info), Some(_)) = (&from.normal_texture, &to.normal_texture) {
             to.normal_scale = rounded(info.scale.unwrap_or(1.0));
         }
@@ -224,8 +224,8 @@ fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, Fault> {
     })
 }
 
-/// Returns the transform of a texture according to the extension, and the set of texture coordinates that the extension
-/// selects, if it selects one.
+/// Returns the transform of a texture according to the extension. Also returns the index of the texture coordinate set
+/// that the extension selects, or `None` if it selects no set.
 fn transform(
     extensions: &Extensions,
     here: &str,

@@ -32,8 +32,8 @@ fn semantic(name: &str) -> Option<Semantic> {
     (semantic.to_string() == name).then_some(semantic)
 }
 
-/// Returns, for each primitive of each mesh, the changes of texture coordinates and colors by its morph targets. The
-/// changes are sorted by morph target, attribute and accessor.
+/// Returns, for each primitive of each mesh, the changes that its morph targets make to texture coordinates and colors.
+/// The changes are sorted by morph target, attribute and accessor.
 ///
 /// # Errors
 ///

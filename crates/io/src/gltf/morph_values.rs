@@ -16,8 +16,8 @@ use crate::fault::Fault;
 /// The changes that the morph targets of a mesh make to texture coordinates and colors.
 pub(super) struct ValueChanges<'a> {
     of_primitives: &'a [Vec<ValueChange>],
-    /// The pairs of an attribute and the index of a morph target that changes this attribute in at least one primitive
-    /// of the mesh.
+    /// Pairs of an attribute and the index of a morph target. The target changes the attribute in at least one
+    /// primitive of the mesh.
     columns: BTreeSet<(&'a Semantic, usize)>,
 }
 

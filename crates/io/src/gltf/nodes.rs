@@ -225,8 +225,8 @@ fn shared(
     Ok(placed)
 }
 
-/// Returns the graph of the scene, and for each node of the file, its index in the graph. The graph has no nodes if the
-/// writer would create exactly the nodes of the file for a graph without nodes.
+/// Returns the graph of the scene, and for each node of the file, its index in the graph. If the nodes of the file are
+/// exactly those that the writer creates for a graph without nodes, the returned graph has no nodes.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],

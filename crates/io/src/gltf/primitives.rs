@@ -119,7 +119,7 @@ pub(super) fn triangles(
     Ok(all)
 }
 
-/// The normals, tangents, texture coordinates and colors of a mesh that morph targets change.
+/// The attributes of a mesh that morph targets change: normals, tangents, texture coordinates and colors.
 struct Morphed<'a> {
     normals: Directions,
     tangents: Directions,
@@ -127,7 +127,8 @@ struct Morphed<'a> {
 }
 
 impl Morphed<'_> {
-    /// Reads the changed normals and tangents of a primitive with `n` vertices and the attributes `own`.
+    /// Reads the normals and tangents of a primitive as its morph targets change them. `n` is the number of vertices of
+    /// the primitive, and `own` contains its attributes.
     ///
     /// # Errors
     ///
@@ -290,8 +291,9 @@ impl Triangles {
         Ok((first, count))
     }
 
-    /// Returns the number of attributes of earlier primitives that a primitive with `n` vertices and the attributes
-    /// `own` lacks. The caller sets the missing values to zero. Their size is subtracted from the memory budget.
+    /// Counts the attributes that earlier primitives have and a primitive lacks. `n` is the number of vertices of the
+    /// primitive, and `own` contains its attributes. The caller sets the missing values to zero. Their size is
+    /// subtracted from the memory budget.
     ///
     /// # Errors
     ///

@@ -243,7 +243,7 @@ impl<'a> Quantizer<'a> {
     }
 
     /// Moves the meshes of quantized objects to grid nodes, which map the grid of the positions to the space of the
-    /// object. `nodes` begins with the nodes of the graph. Each node after these references an object that no node of
+    /// object. `nodes` begins with the nodes of the graph. The nodes after them reference the objects that no node of
     /// the graph references.
     pub(super) fn place(&mut self, graph: &Graph, nodes: &mut Vec<Value>) {
         let identity = DAffine3::IDENTITY;

@@ -74,8 +74,8 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
             if left[c] == 0 {
                 continue;
             }
-            // Of the vertices that will still be recent when their fan is complete, the vertex whose last use was the
-            // longest time ago is preferred. Each triangle of a fan adds at most two vertices.
+            // Prefers vertices that will still be recent when their fan is complete. Among these, prefers the vertex
+            // whose last use was the longest time ago. Each triangle of a fan adds at most two vertices.
             let age = time - last_use[c];
             let priority = if age + 2 * left[c] as usize <= RECENT {
                 age

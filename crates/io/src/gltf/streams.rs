@@ -254,7 +254,7 @@ impl Stream<'_> {
         }
     }
 
-    /// Returns the reason of a loss: which values of this stream glTF does not allow, and how they are changed.
+    /// Returns the reason of a loss. It says which values of this stream glTF does not allow, and how they are changed.
     pub(super) fn change(&self) -> &'static str {
         match self.meaning {
             Meaning::Normal => "zero or not finite, so replaced by the normal of the face",

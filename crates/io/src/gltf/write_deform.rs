@@ -216,8 +216,8 @@ impl Bound {
 }
 
 /// Returns the morph targets of an object. The graph stores the weights of the morph targets in the label of the
-/// object. The result has as many targets as there are weights or, if that is more, as the mesh has targets with
-/// deltas. If the mesh has no deltas, the result is empty.
+/// object. The number of targets in the result is the number of weights or the number of targets with deltas, whichever
+/// is larger. If the mesh has no deltas, the result is empty.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,

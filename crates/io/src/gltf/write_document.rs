@@ -47,7 +47,7 @@ pub(super) struct Writer<'a> {
     compression: Option<Compression>,
 }
 
-/// Whether the mesh of an object is written with joints, and the number of morph targets with which it is written.
+/// Whether the joints of an object are written, and how many of its morph targets are written.
 pub(super) struct Deformed {
     pub(super) has_joints: bool,
     pub(super) n_targets: usize,
@@ -220,7 +220,7 @@ impl<'a> Writer<'a> {
                 "targets": targets,
             }));
         }
-        // The buffer contains the bytes of an image after the data of the first object that uses the image.
+        // In the buffer, the bytes of an image come after the data of the first object that uses the image.
         for (place, bytes) in std::mem::take(&mut self.materials.image_bytes) {
             let length = bytes.len();
             let view = self.view(length, None, move |out| out.copy_from_slice(&bytes));

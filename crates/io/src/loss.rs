@@ -24,7 +24,7 @@ pub struct Loss {
     pub reason: String,
 }
 
-/// Names in [`Loss::attribute`] that are not names of attributes, although the loss has a domain.
+/// Values of [`Loss::attribute`] that do not name an attribute, although the loss has a domain.
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {

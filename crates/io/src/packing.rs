@@ -15,7 +15,7 @@ pub enum Compression {
     Meshopt,
 }
 
-/// How many bits the numbers of each attribute have in quantized glTF files. Each field is from 8 to 16.
+/// The precision of the attributes in quantized glTF files. Each field is a number of bits, from 8 to 16.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantization {

@@ -220,7 +220,7 @@ impl Polygons {
     }
 }
 
-/// Rearranges every column of a domain: the value at `sources[i]` moves to index i.
+/// Rearranges every column of a domain: the value at index `sources[i]` is copied to index i.
 pub(crate) fn gather(attributes: &mut Attributes, domain: Domain, sources: &[u32]) {
     for (of, mut column) in std::mem::take(attributes) {
         if of == domain {

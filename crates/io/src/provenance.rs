@@ -8,7 +8,7 @@ use store::Store;
 
 use crate::{Format, ReadError, gltf, gzip, mws};
 
-/// The provenance is searched in this number of bytes at the beginning of a file. In glTF files, the whole JSON is
+/// This number of bytes at the beginning of a file is searched for the provenance. In glTF files, the whole JSON is
 /// searched.
 const HEAD: u64 = 1 << 20;
 /// At most this number of decompressed bytes of a compressed glTF file is read.

@@ -22,9 +22,9 @@ const CHUNK: usize = 1 << 15;
 const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
 
-/// Counts the vertices that a later reading of the written file merges with an earlier vertex. The format must be one
-/// whose reader merges vertices with equal positions. Vertices without a face are not counted, because they are not
-/// written. Positions are compared after they are rounded to 32 bits.
+/// Counts the vertices that reading the written file would merge with an earlier vertex. The reader of the format must
+/// merge vertices with equal positions. Vertices without a face are not counted, because they are not written.
+/// Positions are compared after they are rounded to 32 bits.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
 }

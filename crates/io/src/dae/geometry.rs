@@ -58,7 +58,7 @@ enum Kind {
 
 struct Input<'a> {
     kind: Kind,
-    /// Which of the indices of a corner refers to this input, counted from 0.
+    /// Each corner has several indices. This input uses the index at this position, counted from 0.
     offset: usize,
     source: Node<'a>,
 }
@@ -67,7 +67,7 @@ struct Input<'a> {
 struct Inputs<'a> {
     /// The number of indices of each corner.
     stride: usize,
-    /// Which of the indices of a corner refers to a vertex, counted from 0.
+    /// The position of the vertex index among the indices of a corner, counted from 0.
     vertex: usize,
     /// The element with the positions.
     vertices: Node<'a>,

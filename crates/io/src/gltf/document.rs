@@ -183,7 +183,8 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
     }
 }
 
-/// Checks that everything that skins and animations refer to exists, and that the skins of nodes exist.
+/// Checks the references in skins and animations, and the references from nodes to skins. The nodes, skins and samplers
+/// must exist.
 ///
 /// # Errors
 ///

@@ -127,8 +127,8 @@ struct Morphed<'a> {
 }
 
 impl Morphed<'_> {
-    /// Reads the normals and tangents of a primitive as its morph targets change them. `n` is the number of vertices of
-    /// the primitive, and `own` contains its attributes.
+    /// Reads the normals and tangents that result when each morph target is applied to a primitive. `n` is the number
+    /// of vertices of the primitive, and `own` contains its attributes.
     ///
     /// # Errors
     ///

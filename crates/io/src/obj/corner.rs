@@ -17,8 +17,8 @@ pub(super) type Corner = [Option<Index>; 3];
 pub(super) enum Index {
     /// An index in the file, from 0.
     Absolute(u32),
-    /// An index that counts from 0 at the first element that this part of the file defines. The index is negative for
-    /// elements of earlier parts.
+    /// An index relative to this part of the file: the first element that the part defines has index 0. Elements of
+    /// earlier parts have negative indices.
     Relative(i64),
 }
 

@@ -89,8 +89,8 @@ pub(super) fn read_libraries(
     Ok(materials)
 }
 
-/// Returns the file names on an `mtllib` line. A name is in quotes, consists of several words if an existing file has
-/// this name, or is a single word. Returns at most `most` names, and the number of words after them.
+/// Returns the file names on an `mtllib` line. A name is one word, unless it is in quotes or an existing file has a
+/// name of several words. Returns at most `most` names, and the number of words after them.
 fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>, usize) {
     let mut is_file = |name: &str| {
         let short = Some(name).filter(|name| name.len() <= MAX_PATH_BYTES);
@@ -118,7 +118,7 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     (names, rest.split_whitespace().count())
 }
 
-/// The maximum number of blanks of a line that are tried as the end of a file name. The last blank of the line is tried
+/// At most this number of blanks in a line is tried as the end of a file name. The last blank of the line is tried
 /// first.
 const MAX_BLANKS: usize = 16;
 
@@ -200,7 +200,7 @@ impl Ignored {
 
 fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let mut unknown = from.unknown_param;
-    // `tobj` treats a comment without a blank after `#` as a parameter, so such a parameter is removed.
+    // If a comment has no blank after `#`, `tobj` treats the comment as a parameter. Such parameters are removed.
     unknown.retain(|key, _| !key.starts_with('#'));
     let mut number = |key: &str| {
         let value = unknown.get(key)?.parse::<f64>().ok()?;

@@ -139,7 +139,7 @@ fn missing(indices: &[u32]) -> usize {
     parallel::count(indices.len(), |i| indices[i] == NONE)
 }
 
-/// Returns how many of `n` elements no index refers to.
+/// Counts the elements to which no index refers. There are `n` elements.
 fn unused(n: usize, indices: &[u32]) -> usize {
     let used = parallel::index_flags(n, indices);
     used.iter().filter(|used| !used.load(Relaxed)).count()

@@ -19,8 +19,8 @@
 //! they are used unchanged. The same rule applies separately to the colors of the faces. Binary files are refused.
 //! Files whose vertices do not have three coordinates (`4OFF`, `nOFF`) are also refused.
 //!
-//! The writer uses the table above from right to left: it writes the content in the second column in the form of the
-//! first column. Texture coordinates are written only if they are equal at all corners of each vertex.
+//! The writer uses the table above from right to left: it writes the content in the second column as shown in the first
+//! column. Texture coordinates are written only if they are equal at all corners of each vertex.
 
 mod read;
 mod write;

@@ -22,13 +22,13 @@
 //! values of all other custom properties are copied. Non-finite positions are an error. Other non-finite values become
 //! 0, with a note.
 //!
-//! The writer uses the table above from right to left: it writes the content in the second column in the form of the
-//! first column. It writes little-endian binary files. Reading such a file restores all finite values exactly.
-//! Positions and custom floating-point attributes are written with 64 bits. Normals and texture coordinates are written
-//! with 32 bits if this loses nothing, otherwise with 64 bits. Colors are written as bytes if every component is a
-//! multiple of 1/255. If texture coordinates are equal at all corners of each vertex, they are written as the
-//! properties `s` and `t` of `vertex`. Corner attributes are written as list properties of `face`. Materials and edge
-//! attributes cannot be stored.
+//! The writer uses the table above from right to left: it writes the content in the second column as shown in the first
+//! column. It writes little-endian binary files. Reading such a file restores all finite values exactly. Positions and
+//! custom floating-point attributes are written with 64 bits. Normals and texture coordinates are written with 32 bits
+//! if this loses nothing, otherwise with 64 bits. Colors are written as bytes if every component is a multiple of
+//! 1/255. If texture coordinates are equal at all corners of each vertex, they are written as the properties `s` and
+//! `t` of `vertex`. Corner attributes are written as list properties of `face`. Materials and edge attributes cannot be
+//! stored.
 
 mod attribute_comments;
 mod body;

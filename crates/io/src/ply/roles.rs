@@ -104,8 +104,8 @@ fn corner_list(element: &Element) -> Result<usize, Fault> {
     )))
 }
 
-/// Returns the indices of the properties of the first family in `names` that is complete. A family is a list of
-/// property names, such as `s` and `t`.
+/// Each entry of `names` is a family of property names, such as `s` and `t`. Returns the indices of the properties of
+/// the first complete family.
 fn family<const N: usize>(element: &Element, names: &[[&str; N]]) -> Option<[usize; N]> {
     names.iter().find_map(|family| {
         let mut found = [0; N];

@@ -1,4 +1,4 @@
-//! Reads triangle strips, which some PLY files contain instead of faces, such as the files of the Stanford scans.
+//! Reads triangle strips. Some PLY files contain strips instead of faces, for example the files of the Stanford scans.
 
 use super::columns::item_at;
 use super::table::Table;

@@ -114,7 +114,7 @@ enum Field<'a> {
     Corners(Type),
     Values {
         values: Cow<'a, Values>,
-        /// The number of components of a value that are written. If all colors are opaque, the alpha is left out.
+        /// The number of written components of each value. If all colors are opaque, the alpha is left out.
         size: usize,
         form: Type,
         /// Values of corners are stored as a list for each face. For such a list, this is the type of its length.

@@ -105,7 +105,7 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     polygons
 }
 
-/// If there are several solids, adds a tag for each name of a solid, which marks the faces of the solids with this
+/// If there are several solids, adds a tag for each distinct name. The tag marks the faces of all solids with this
 /// name.
 fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &mut Notes) {
     if solids.len() < 2 {

@@ -1,4 +1,4 @@
-//! Tests that glTF content which is not kept is reported by a note. Also tests that names and extras are kept.
+//! Tests that a note reports glTF content that is not kept. Also tests that names and extras are kept.
 
 use mesh_io::{NoteKind, WriteOptions};
 use scene::Scene;

@@ -34,8 +34,8 @@ const CHANGES: [Row; 6] = [
     ([0.0, -0.6], [0.3, 0.7], [0.1, 0.1, 0.1, -0.1]),
 ];
 
-/// Returns a document with two triangles that share an edge, which is a seam. Target 1 of two morph targets adds these
-/// changes to the texture coordinates and colors.
+/// Returns a document with two triangles that share an edge, which is a seam. There are two morph targets. The second
+/// one adds these changes to the texture coordinates and colors.
 fn folded(changes: &[Row; 6]) -> Value {
     let mut a = Accessors::default();
     let corners: [[f32; 3]; 6] = [

@@ -1,5 +1,5 @@
-//! Checks that compressed and quantized glTF files have the same content as other glTF files, except for the reported
-//! errors of quantization.
+//! Checks that compression and quantization preserve the content of glTF files, except for the reported errors of
+//! quantization.
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{CORNER_TANGENT, Domain, Mesh, UV, VERTEX_NORMAL};

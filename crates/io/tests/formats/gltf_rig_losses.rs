@@ -51,7 +51,7 @@ fn what_a_written_file_cannot_store_is_a_loss() {
         losses(&|s| mesh(s, &|m| set(m, 0, -0.5))),
         ["20 joint weights", "4 joint weights"]
     );
-    // If a mesh has no deltas of morph targets, the animations of the weights of its morph targets are also lost.
+    // If a mesh has no deltas of morph targets, the animations of its morph weights are also lost.
     let unmorphed = |m: &mut mesh::Mesh| {
         (0..2).for_each(|t| drop(m.remove_column(mesh::Domain::Vertex, &morph_name(t))));
     };

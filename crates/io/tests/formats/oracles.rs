@@ -147,8 +147,8 @@ impl Spelling {
 }
 
 proptest! {
-    /// Texture coordinates and normals are compared only at corners that have them, because at other corners, the crate
-    /// `tobj` uses those of another corner.
+    /// Texture coordinates and normals are compared only at corners that have them. To the other corners, the crate
+    /// `tobj` gives values of a different corner.
     #[test]
     fn tobj_reads_the_same_corners_of_any_dialect(
         points in prop::collection::vec((-1e3..1e3_f64, -10..10_i32, any::<i16>()), COUNT),

@@ -1,4 +1,4 @@
-//! Tests of the notes of [`mesh_io::peek`] about content that reading leaves out.
+//! Tests that [`mesh_io::peek`] reports the content that reading would leave out.
 
 use mesh::Domain;
 use mesh_io::{
@@ -42,7 +42,8 @@ fn peek_notes(files: &[(&str, &[u8])], expected: &[&str]) {
     }
 }
 
-/// Checks that the counts and attributes of the mesh `read` are among those that peeking at its file predicts.
+/// Checks that peeking at a file predicts the mesh that is read from it: its counts are in the predicted ranges, and
+/// its attributes are in the predicted list.
 #[track_caller]
 fn check_counts(peek: &PeekObject, read: &Object, policies: Policies) {
     let (PeekGeometry::Mesh(counts), Some(mesh)) = (&peek.geometry, read.as_mesh()) else {

@@ -102,7 +102,7 @@ fn reported(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
     all
 }
 
-/// Whether files of this format store separate triangles whose coincident corners the reader merges.
+/// Whether files of this format store separate triangles. The reader merges the coincident corners of these triangles.
 fn is_soup(extension: &str) -> bool {
     matches!(extension, "stl" | "glb" | "gltf")
 }
@@ -113,7 +113,7 @@ fn table() -> BTreeMap<String, Vec<Outcome>> {
         let line = line.trim().trim_matches('|');
         line.split('|').map(|cell| cell.trim().to_owned()).collect()
     };
-    // Only the first table of the file is about formats and features of this test.
+    // The file has several tables. This test uses only the first one.
     let (table, _) = TABLE.split_once("\n## ").unwrap();
     let mut lines = table
         .lines()
@@ -188,8 +188,8 @@ fn measured(feature: &Feature, extension: &str) -> Outcome {
 }
 
 /// Checks that a round trip preserves the objects, except for reported losses and the changes in the table. A second
-/// round trip must not change or lose anything, and must write the same bytes unless the first one changed the form of
-/// the content.
+/// round trip must not change or lose anything. It must also write the same bytes, unless the first round trip changed
+/// the form of the content.
 ///
 /// # Errors
 ///

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! A channel consists of four consecutive bytes of each element. For each byte of an element, the controls of a block
-//! select the possible numbers of bits of its differences. The mode of a channel is one of the variants of `Channel`.
-//! Only version 1 (`0xa1`) has controls and modes.
+//! define how many bits the differences of this byte can have. The mode of a channel is one of the variants of
+//! `Channel`. Only version 1 (`0xa1`) has controls and modes.
 
 use super::input::Input;
 use crate::fault::Fault;
@@ -56,8 +56,8 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let controls = (stride / 4) as u64;
     let mut tail = (stride + stride / 4).max(24);
     if count == 0 {
-        // A stream without blocks is shortest in version 0 if the tail of version 0 is shorter. With blocks, version 1
-        // is always shorter, because its blocks of zeros are shorter.
+        // A stream without blocks consists of a header and a tail, and the tail can be shorter in version 0. A stream
+        // with blocks is always shorter in version 1, because blocks of zeros are shorter in this version.
         tail = tail.min(stride.max(32));
     }
     let around = 1 + tail as u64;
@@ -124,7 +124,7 @@ pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(),
     input.end()
 }
 
-/// Decodes the differences of the byte at one position in each of `n` elements.
+/// Decodes `n` differences, which belong to bytes at the same position in `n` consecutive elements.
 fn groups(
     input: &mut Input,
     bits: Bits,

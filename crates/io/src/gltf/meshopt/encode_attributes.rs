@@ -48,8 +48,8 @@ fn encode_block(elements: &[u8], before: &[u8]) -> Vec<u8> {
     out
 }
 
-/// Encodes the differences of the byte at one position in each element. Entry i is the difference between the bytes of
-/// element i and of the element before it. The number of differences is a multiple of [`GROUP`].
+/// Encodes differences that belong to bytes at the same position in consecutive elements. Entry i is the byte of
+/// element i minus the byte of the element before it. The number of differences is a multiple of [`GROUP`].
 fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     let groups = differences.as_chunks::<GROUP>().0;
     let kinds = out.len();

@@ -93,7 +93,7 @@ impl State {
         let rotations = [[a, b, c], [b, c, a], [c, a, b]];
         let new_first = rotations.iter().find(|[a, ..]| *a == self.next);
         let [a, b, c] = *new_first.unwrap_or(&rotations[0]);
-        // If the decoder reads an explicit byte `pair` that is 0, it starts the indices of new vertices at 0 again.
+        // An explicit `pair` of 0 tells the decoder to restart the indices of new vertices at 0.
         let restarts = self.next > 0 && [a, b, c] == [0, 1, 2];
         if restarts {
             self.next = 0;

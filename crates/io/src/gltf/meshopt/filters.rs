@@ -114,8 +114,8 @@ fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
 /// Restores the largest component of a unit quaternion, which the encoding leaves out. Returns the quaternion,
 /// multiplied by 32767 and rounded.
 ///
-/// The argument `last` contains two numbers. Its lowest two bits are the index of the largest component. With these two
-/// bits set to 1, it is the integer that represents 1.
+/// The argument `last` contains two numbers. Its lowest two bits are the index of the largest component. If these two
+/// bits are replaced by ones, the result is the integer that represents 1.
 fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
     let one = f32::from(last | 3);
     let [x, y, z] = [x, y, z].map(|x| f32::from(x) / one * std::f32::consts::FRAC_1_SQRT_2);

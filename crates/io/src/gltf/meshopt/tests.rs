@@ -200,8 +200,8 @@ fn the_example_of_the_specification_is_decoded() {
     );
 }
 
-/// Rotates the corners of each triangle so that the smallest index comes first. Of several such rotations, the
-/// lexicographically smallest one is chosen.
+/// Rotates the corners of each triangle so that the smallest index comes first. If several corners have the smallest
+/// index, the lexicographically smallest rotation is chosen.
 fn rotated(triangles: &[u32]) -> Vec<[u32; 3]> {
     let triangles = triangles.as_chunks().0.iter();
     let least =

@@ -156,8 +156,8 @@ impl<'a> Assets<'a> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the file is missing or is not a regular file, or if a link in its path leads out of the
-    /// folder of the model file.
+    /// Returns an error if the file is missing or is not a regular file. Also returns an error if a link in its path
+    /// leads out of the folder of the model file.
     pub(crate) fn read(&mut self, name: &Path, limit: u64) -> io::Result<Vec<u8>> {
         let path = self.place(name);
         self.seen.insert(FileDependency {

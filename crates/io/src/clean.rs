@@ -108,8 +108,8 @@ fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> 
         let corners = corners(polygons, f);
         let first = polygons.offsets[f] as usize;
         for (i, &v) in corners.iter().enumerate() {
-            // Of several consecutive corners with the same vertex, the first one is kept. The first and the last corner
-            // of a polygon are also consecutive.
+            // If consecutive corners have the same vertex, the first of them is kept. The first and the last corner of
+            // a polygon are also consecutive.
             is_kept[first + i] = v != corners[(i + corners.len() - 1) % corners.len()];
         }
     }
@@ -179,7 +179,8 @@ fn duplicates(polygons: &Polygons) -> Vec<usize> {
     duplicates
 }
 
-/// Returns a hash of a face that does not depend on the order of its corners: the sum of the hashes of its vertices.
+/// Returns a hash of a face: the sum of the hashes of its vertices. The hash does not depend on the order of the
+/// corners.
 fn sum_of_hashes(corners: &[u32]) -> u64 {
     // The hash function is the finalizer of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
     // generators", 2014).
@@ -192,9 +193,9 @@ fn sum_of_hashes(corners: &[u32]) -> u64 {
     hashes.fold(corners.len() as u64, u64::wrapping_add)
 }
 
-/// Rotates the vertices of a polygon so that the vertex with the lowest index comes first, and reverses their order if
-/// that makes the list lexicographically smaller. Polygons with the same vertices in the same or the opposite circular
-/// order give the same list.
+/// Lists the vertices of a polygon, beginning with the vertex that has the lowest index. Of the two directions around
+/// the polygon, chooses the one that gives the lexicographically smaller list. Polygons with the same vertices in the
+/// same or the opposite circular order give the same list.
 fn canonical(corners: &[u32]) -> Vec<u32> {
     let Some(start) = (0..corners.len()).min_by_key(|&i| corners[i]) else {
         return Vec::new();

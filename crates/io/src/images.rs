@@ -258,8 +258,7 @@ pub(crate) fn settle<'a>(
     })
 }
 
-/// The file name that an embedded image gets when it is written to a file: the name of the model with the extension of
-/// the image.
+/// The name of the file to which an embedded image is written: the name of the model with the extension of the image.
 fn new_name(path: &Path, mime: &str) -> Option<PathBuf> {
     let (extension, _) = KINDS.iter().find(|(_, known)| *known == mime)?;
     Some(

@@ -67,8 +67,8 @@ impl Polygons {
     ///
     /// # Errors
     ///
-    /// Returns an error if there are too many elements, or if the polygons do not form a manifold and the policies
-    /// refuse such polygons.
+    /// Returns an error if there are too many elements. Also returns an error if the polygons do not form a manifold,
+    /// but the policies require a manifold.
     fn build(
         &mut self,
         path: &Path,
@@ -94,8 +94,8 @@ impl Polygons {
                 source,
             }
         })?;
-        // The mesh has the copies of split vertices after the original vertices, so the vertex indices of the polygons
-        // are valid in the mesh too.
+        // In the mesh, the copies of split vertices come after the original vertices. Therefore, the vertex indices of
+        // the polygons are also valid in the mesh.
         let given = PolygonArrays {
             positions: built.mesh.positions(),
             offsets,

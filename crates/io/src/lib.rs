@@ -138,7 +138,7 @@ pub struct ReadOptions {
     pub strict: bool,
     /// Whether reading marks the copies of vertices. When a mesh is not a manifold, reading splits vertices into
     /// copies. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the writer merges the
-    /// marked copies again, so the written file has the same vertices as the file that was read. Use this option to
+    /// marked copies again. The written file then has the same vertices as the original file. Use this option to
     /// convert a file to another format without editing its mesh.
     pub keep_vertices: bool,
     /// The memory budget in bytes. The budget is the maximum size of all images together, and also the maximum size of
@@ -162,9 +162,9 @@ pub struct Loaded {
 /// How to write a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
-    /// The origin of the content, such as the digest of a recipe. The origin is stored as a comment in OBJ, MTL, PLY
-    /// and OFF, in the header of STL, as `asset.extras.meshwright` in glTF, and in the header of `.mws`. The Bezier
-    /// formats and tables (`.csv`, `.npz`) cannot store the origin.
+    /// The origin of the content, such as the digest of a recipe. OBJ, MTL, PLY and OFF files store the origin as a
+    /// comment, STL and `.mws` files in their header, and glTF files as `asset.extras.meshwright`. The Bezier formats
+    /// and tables (`.csv`, `.npz`) cannot store the origin.
     pub provenance: Option<String>,
     /// How the images of materials are written. If `None`, images are embedded in `.glb` files. For `.gltf` and `.obj`
     /// files, images in the folder of the original model are copied to the folder of the written file. OBJ files cannot
@@ -348,7 +348,7 @@ fn parse_format(
         Format::Mws => mws::read(&bytes, options.name.as_deref(), placements),
         Format::Bez => bez::read_patches(&bytes).map(Shape::Geometry).map(one),
         Format::Bzc => bez::read_curve(&bytes).map(Shape::Geometry).map(one),
-        // Refused by `known_format`.
+        // `known_format` refuses these formats.
         Format::Csv | Format::Npz => Ok(Vec::new().into()),
     };
     found.map_err(|fault| fault.in_file(path))
@@ -366,7 +366,7 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     })
 }
 
-/// Returns the objects that reading a file would give, with their element counts. If the file has a header with these
+/// Returns the objects that would be read from a file, with their element counts. If the file has a header with these
 /// counts, the counts are taken from the header.
 ///
 /// Also returns notes about the content that reading would leave out. Content that can be found only by building the
@@ -423,7 +423,7 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
         ),
         Format::Bez => bez::read_patches(&bytes).map(of),
         Format::Bzc => bez::read_curve(&bytes).map(of),
-        // Refused by `known_format`.
+        // `known_format` refuses these formats.
         Format::Csv | Format::Npz => Ok(Vec::new()),
     };
     let objects = objects.map_err(|fault| fault.in_file(path))?;
@@ -542,8 +542,8 @@ fn write_placed(
     })
 }
 
-/// Whether files with the format of `path` can store a mesh that is not a manifold. [`ReadOptions::keep_vertices`] has
-/// an effect only if the mesh is written to a file of such a format.
+/// Whether files with the format of `path` can store a mesh that is not a manifold. For other formats,
+/// [`ReadOptions::keep_vertices`] has no effect on the written file.
 pub fn keeps_vertices(path: &Path) -> bool {
     let format = Format::from_path(path);
     matches!(

@@ -7,8 +7,8 @@
 //! ..              the canonical form of the scene; the digest of the scene is computed from it
 //! ```
 //!
-//! Reading restores everything: the order of all elements, names, materials with their content, and every attribute,
-//! including the rule that computes the values of the attribute at new elements. Other programs do not read this
+//! Reading restores everything: the order of all elements, names, materials with their content, and every attribute.
+//! The rule that computes the values of an attribute at new elements is also restored. Other programs do not read this
 //! format.
 
 use scene::{Graph, NoArrays, Scene};
@@ -38,8 +38,8 @@ pub(crate) fn read(
     })
 }
 
-/// Returns the objects that reading would give, with their element counts. The whole file is decoded, because reading
-/// refuses a file with an invalid part.
+/// Returns the objects that would be read from a file, with their element counts. The whole file is decoded, because
+/// reading refuses a file with an invalid part.
 pub(crate) fn peek(
     bytes: &[u8],
     name: Option<&str>,

@@ -13,18 +13,18 @@ use crate::{CleanupPolicy, Format, NonManifold, Note, Policies};
 pub struct Peek {
     /// The format of the file.
     pub format: Format,
-    /// The objects that reading the file would give, in order and with their names.
+    /// The objects that would be read from the file, in order and with their names.
     pub objects: Vec<PeekObject>,
     /// The nodes, skins and animations. Except for `.mws` files, the arrays of numbers are missing: skins have no
     /// inverse bind matrices, and the inputs and outputs of samplers are not valid.
     pub graph: Graph,
-    /// The content that reading would leave out and that can be found without building the objects. Examples are unused
+    /// Content that reading would leave out, as far as this is known without building the objects. Examples are unused
     /// elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and material
     /// libraries. Reading can leave out content that is not listed here.
     pub left_out: Vec<Note>,
 }
 
-/// An object that reading a file would give.
+/// An object that would be read from a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PeekObject {
     /// The name of the object.
@@ -138,7 +138,7 @@ pub struct PeekMesh {
     pub colors: bool,
     /// Whether faces have materials.
     pub materials: bool,
-    /// The maximum number of different joints that have weights in the mesh.
+    /// In the mesh, at most this number of joints has weights.
     pub joints: u64,
     /// The number of morph targets.
     pub targets: u64,
@@ -151,7 +151,7 @@ pub struct PeekMesh {
     pub simple_corners: u64,
     /// Whether reading keeps all vertices of the file. Reading can still split some of them.
     pub keeps_vertices: bool,
-    /// Whether the mesh after reading is exactly the mesh in the file. This is the case for `.mws` files.
+    /// Whether reading does not change the mesh at all. This is the case for `.mws` files.
     pub is_exact: bool,
 }
 

@@ -165,7 +165,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Skips all remaining lines. Returns the number of lines with words, and the line number of the first such line.
+    /// Skips all remaining lines. Returns the number of lines that contain words, and the line number of the first of
+    /// these lines.
     pub(crate) fn count_rest(&mut self) -> (usize, usize) {
         self.skip_empty_lines();
         let first = self.place().line;

@@ -34,8 +34,8 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
 ///
 /// # Errors
 ///
-/// Returns an error if the text is not XML, or if parsing it would take far more time or memory than is usual for its
-/// size.
+/// Returns an error if the text is not XML. Also returns an error if parsing the text would take unusually much time or
+/// memory for its size.
 pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
     check_size(text)?;
     let options = ParsingOptions {
@@ -213,7 +213,7 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the attribute is missing or is not a reference, or if it refers to an element that is
+    /// Returns an error if the attribute is missing or is not a reference. Also returns an error if the element is
     /// missing or has a different name.
     pub(super) fn follow(
         &self,

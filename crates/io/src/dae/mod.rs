@@ -69,7 +69,7 @@ pub(crate) fn read(
     })
 }
 
-/// Returns the objects that reading the file would give, with their element counts.
+/// Returns the objects that would be read from a file, with their element counts.
 ///
 /// # Errors
 ///

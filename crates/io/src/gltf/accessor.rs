@@ -127,8 +127,8 @@ impl Reader<'_> {
     }
 
     /// Reads the elements of an accessor. `convert` makes a value from the N numbers of an element. If the elements
-    /// have fewer than N components, the missing components are set to `fill`. Normalized integers are scaled to the
-    /// range from 0 to 1 if they are unsigned, and from -1 to 1 if they are signed.
+    /// have fewer than N components, the missing components are set to `fill`. Normalized unsigned integers are scaled
+    /// to the range from 0 to 1, and normalized signed integers to the range from -1 to 1.
     ///
     /// # Errors
     ///
@@ -275,8 +275,8 @@ impl Reader<'_> {
         Ok(elements)
     }
 
-    /// Returns the rows of an accessor, which are the bytes of its elements in the buffer view, and the number of its
-    /// elements. The rows are `None` if the accessor has no view.
+    /// Returns the rows of an accessor and the number of its elements. The rows are the bytes of the elements in the
+    /// buffer view. The rows are `None` if the accessor has no view.
     fn dense(
         &self,
         index: usize,

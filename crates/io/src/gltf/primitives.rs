@@ -24,7 +24,7 @@ use mesh::parallel;
 
 /// If a primitive lacks an attribute that an earlier primitive of the mesh has, its vertices get zeros for this
 /// attribute. For each missing attribute, this number of bytes is subtracted from the memory budget, in addition to the
-/// size of the zeros. This limits the time for files with many primitives and attributes.
+/// size of the zeros. This charge limits the time for files with many primitives and attributes.
 const MISSING_ATTRIBUTE_CHARGE: u64 = 16;
 
 /// The triangles of all primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.

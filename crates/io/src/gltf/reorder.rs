@@ -116,8 +116,8 @@ impl Around {
             sum += *start;
             *start = sum;
         }
-        // Each list is filled from its end to its beginning. While the list is filled, its entry in `starts` decreases
-        // from the end of the list to its beginning.
+        // Each list is filled backward. At first, its entry in `starts` is the end of the list. The entry decreases
+        // with each added triangle until it is the start of the list.
         let mut triangles = vec![0; corners.len()];
         for (i, &corner) in corners.iter().enumerate().rev() {
             let start = &mut starts[corner as usize];

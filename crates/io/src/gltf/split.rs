@@ -93,8 +93,8 @@ pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: 
 /// differ.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     let file = FileVertices::of(mesh);
-    // If the mesh has no copies of vertices, all corners of a vertex have the same values of vertex attributes, so only
-    // corner attributes are compared.
+    // Only copies of a vertex can have different values of a vertex attribute. If the mesh has no copies, only corner
+    // attributes are compared.
     let can_differ = |stream: &&Stream| stream.domain == Domain::Corner || file.has_copies();
     let seams: Vec<&Stream> = streams.iter().filter(can_differ).collect();
     let n = file.len();

@@ -112,7 +112,7 @@ pub(super) fn streams<'a>(
 }
 
 /// Returns the streams of the normals or the tangents of morph targets. glTF stores the normals and tangents of a morph
-/// target as differences from those of the mesh.
+/// target as differences from the normals and tangents of the mesh.
 fn deltas<'a>(
     mesh: &'a Mesh,
     meaning: Meaning<'a>,
@@ -227,8 +227,9 @@ impl Stream<'_> {
         self.target.is_none() && attribute_name(&self.semantic).as_deref() == Some(name)
     }
 
-    /// Returns the value that is written for a corner, and a flag that is false if the value had to be changed because
-    /// glTF does not allow it. The caller uses only as many of the four components as the kind of the stream has.
+    /// Returns the value that is written for a corner, and a flag. If glTF does not allow the value of the mesh, a
+    /// different value is written, and the flag is false. The caller uses only as many of the four components as the
+    /// kind of the stream has.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let value = value(self.domain, self.column, v, h);
         let [x, y, ..] = value;

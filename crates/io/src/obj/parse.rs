@@ -9,7 +9,7 @@ use crate::fault::Fault;
 use crate::text::{TextPosition, check_encoding, quoted};
 use mesh::parallel;
 
-/// The approximate size in bytes of a part of the text, chosen so that the arrays of a part fit in the cache of a
+/// The approximate size in bytes of a part of the text. The arrays of a part of this size fit in the cache of a
 /// processor core.
 pub(super) const PART: usize = 256 << 10;
 

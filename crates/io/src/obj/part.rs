@@ -44,11 +44,11 @@ pub(super) struct Part {
     pub(super) libraries: Vec<(TextPosition, String)>,
     /// For each kind of content that was left out, its number of occurrences and its first line.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
-    /// How many positions, texture coordinates and normals the file must define for the absolute indices of this part
-    /// to be valid.
+    /// The absolute indices of this part are valid if the file defines at least these numbers of positions, texture
+    /// coordinates and normals.
     pub(super) highest: Counts,
-    /// How many positions, texture coordinates and normals earlier parts must define for the relative indices of this
-    /// part to be valid.
+    /// The relative indices of this part are valid if earlier parts define at least these numbers of positions, texture
+    /// coordinates and normals.
     pub(super) reach: Counts,
     /// The number of lines that end in this part.
     pub(super) n_lines: usize,

@@ -333,8 +333,8 @@ fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes:
 
 // ---- Counts ------------------------------------------------------------------------------------
 
-/// Returns the element counts of an OFF file, and the face attributes that reading the file can give. Adds notes on
-/// faces and lines that are left out. Numbers and vertex indices are not checked.
+/// Returns the element counts of an OFF file, and the face attributes that the mesh can have. Adds notes on faces and
+/// lines that are left out. Numbers and vertex indices are not checked.
 ///
 /// # Errors
 ///

@@ -111,8 +111,7 @@ pub(super) fn numbers<const N: usize, V: Value>(
     properties: [usize; N],
     make: impl Fn([f64; N]) -> V + Sync,
 ) -> Vec<V> {
-    /// The number of rows that are decoded at a time, chosen so that their values fit in the first-level cache of the
-    /// processor.
+    /// The number of rows that are decoded at a time. Their values fit in the first-level cache of the processor.
     const PIECE: usize = 256;
     let mut out = zeroed(table.rows);
     parallel::fill(&mut out, |first, out| {

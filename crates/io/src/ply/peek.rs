@@ -89,8 +89,8 @@ pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<(PeekMesh, Names),
 /// The domains and names of attributes.
 type Names = Vec<(Domain, String)>;
 
-/// Returns the mesh attributes that reading the properties of an element gives, except those that [`PeekMesh`]
-/// describes. `used` is the index of the property that lists the vertices of faces.
+/// Returns the mesh attributes that result from the properties of an element, except those that [`PeekMesh`] describes.
+/// `used` is the index of the property that lists the vertices of faces.
 fn names_of(domain: Domain, element: &Element, used: usize, header: &Header) -> Names {
     let mut names = Vec::new();
     let mut is_used = vec![false; element.properties.len()];

@@ -24,8 +24,8 @@ use mesh::parallel;
 ///
 /// # Errors
 ///
-/// Returns an error for the first position that violates the format. The position is a line and a column in a text file
-/// and in the header, and the offset of a byte in binary values.
+/// Returns an error for the first position that violates the format. In a text file or a header, the position is a line
+/// and a column. In binary values, it is the offset of a byte.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;

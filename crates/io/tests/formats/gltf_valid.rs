@@ -14,8 +14,8 @@ use crate::gltf_materials::{PNG, painted, rich};
 use crate::gltf_written::sphere;
 use crate::{read, scene, tag};
 
-/// Writes a scene as a `.glb` file, as a `.gltf` file, as a quantized file, and as a quantized and compressed file, and
-/// reads all of these files.
+/// Writes a scene as four files and reads them: a `.glb` file, a `.gltf` file, a quantized file, and a quantized and
+/// compressed file.
 pub(crate) fn written(name: &str, scene: &Scene) {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("gltf");
     std::fs::create_dir_all(&folder).unwrap();

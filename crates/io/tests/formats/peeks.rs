@@ -42,8 +42,8 @@ fn peek_notes(files: &[(&str, &[u8])], expected: &[&str]) {
     }
 }
 
-/// Checks that peeking at a file predicts the mesh that is read from it: its counts are in the predicted ranges, and
-/// its attributes are in the predicted list.
+/// Compares the mesh that was read from a file with the result of peeking. The counts of the mesh must be in the
+/// predicted ranges, and peeking must predict each attribute of the mesh.
 #[track_caller]
 fn check_counts(peek: &PeekObject, read: &Object, policies: Policies) {
     let (PeekGeometry::Mesh(counts), Some(mesh)) = (&peek.geometry, read.as_mesh()) else {

@@ -101,7 +101,7 @@ impl Stored<'_> {
     }
 }
 
-/// Returns an empty list of values of each type.
+/// Returns an empty list of values for each type.
 fn types() -> [Values; 6] {
     [
         Values::Float(Vec::new()),

@@ -189,8 +189,8 @@ fn quoted(name: &str) -> String {
     }
 }
 
-/// Returns the name if it is unused. Otherwise, appends a number to it: the smallest number from 2 that gives an unused
-/// name.
+/// Returns the name if it is unused. Otherwise, tries the numbers 2, 3 and so on, and appends the first number that
+/// makes the name unused.
 pub(crate) fn unused(name: String, is_used: impl Fn(&str) -> bool) -> String {
     if !is_used(&name) {
         return name;

@@ -1,5 +1,5 @@
-//! Reads the provenance of a file. The provenance is the text that the writer got as
-//! [`WriteOptions::provenance`](crate::WriteOptions::provenance).
+//! Reads the provenance of a file. The provenance is the text of
+//! [`WriteOptions::provenance`](crate::WriteOptions::provenance) when the file was written.
 
 use std::path::Path;
 

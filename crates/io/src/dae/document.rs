@@ -208,8 +208,8 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Finds the element that the attribute `key` of `node` refers to by `#id`. The name of the element must be in
-    /// `kind`. Returns `None` if the attribute refers to another file.
+    /// Finds the element to which the attribute `key` of `node` refers. The value of the attribute has the form `#id`.
+    /// The name of the element must be in `kind`. Returns `None` if the attribute refers to another file.
     ///
     /// # Errors
     ///

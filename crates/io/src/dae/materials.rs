@@ -161,7 +161,7 @@ fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     Ok(Some(opacity))
 }
 
-/// Finds the parameters that a shader refers to by name. The parameters of the profile come before those of the effect.
+/// Finds the parameters whose names a shader uses. The parameters of the profile come before those of the effect.
 struct Scope<'a, 'd> {
     document: &'d Document<'a>,
     scopes: [Node<'a>; 2],

@@ -69,8 +69,8 @@ struct Used {
     textures: Vec<bool>,
     samplers: Vec<bool>,
     images: Vec<bool>,
-    /// The number of references from materials to textures without a supported image. The texture has no image, or the
-    /// image has neither a URI nor a buffer view.
+    /// The number of references from materials to textures without a supported image. Either the texture has no image,
+    /// or its image has neither a URI nor a buffer view.
     without_image: usize,
 }
 

@@ -301,7 +301,7 @@ fn text(json: &Json) -> String {
     Value::Object(json.clone()).to_string()
 }
 
-/// Whether a node equals the node that the writer creates for an object that no node references.
+/// For an object without a node, the writer creates a simple node. Returns whether a node equals this simple node.
 fn is_plain(node: &SceneNode, json: &NodeJson, object: &PlacedMesh) -> bool {
     node.parent.is_none()
         && json.mesh == Some(object.mesh)

@@ -340,7 +340,7 @@ impl Grid {
         steps.to_array().map(|x| x.round().clamp(0.0, most) as u16)
     }
 
-    /// Returns the position in the space of the object that a reader computes from grid coordinates.
+    /// Returns the position that a reader computes from grid coordinates. The position is in the space of the object.
     fn position(&self, steps: [u16; 3]) -> DVec3 {
         let fraction = DVec3::from(steps.map(f64::from)) / f64::from(u16::MAX);
         DVec3::from(self.origin.map(f64::from)) + fraction * f64::from(self.scale)

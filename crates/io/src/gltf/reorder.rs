@@ -47,7 +47,7 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
     let mut time = RECENT + 1;
     let mut ordered = Vec::with_capacity(corners.len());
     // `used` contains the vertices of the ordered triangles, with the latest vertex at the end. If no vertex in `used`
-    // has triangles left, the next center is searched in the range `untried`.
+    // has triangles left, the next center comes from the range `untried`.
     let mut used: Vec<u32> = Vec::new();
     let mut untried = 0..n_vertices;
     let mut center = untried.next();

@@ -67,8 +67,8 @@ pub(crate) fn storage(
     }
 }
 
-/// Whether a mesh has these texture coordinates and all sets before them. `has` returns whether the mesh has an
-/// attribute with a given domain and name.
+/// Whether a mesh has this set of texture coordinates and all sets with lower numbers. `has` returns whether the mesh
+/// has an attribute with a given domain and name.
 fn has_uvs(name: &str, has: &dyn Fn(Domain, &str) -> bool) -> bool {
     let lower = 0..uv_set(name).unwrap_or_default();
     let name_of = |set| match set {

@@ -25,7 +25,7 @@ use crate::error::Unwritable;
 use crate::loss::Losses;
 use crate::{Compression, WriteOptions};
 
-/// Builds the document, and collects the functions that write the bytes that the document refers to.
+/// Builds the document, and collects the functions that write the parts of its buffer.
 #[derive(Default)]
 pub(super) struct Writer<'a> {
     pub(super) accessors: Vec<Value>,

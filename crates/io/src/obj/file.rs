@@ -69,8 +69,8 @@ pub(super) enum LeftOut {
     Statement(String),
     /// Words that are not a statement of the format.
     Unknown(String),
-    /// Unknown words that are not listed by name, because [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS)
-    /// other unknown words are listed.
+    /// Further unknown words. They are not listed by name, because there are already
+    /// [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS) listed words.
     OtherUnknown,
     /// Points. Each vertex of a `p` statement counts as one point.
     Points,

@@ -212,7 +212,8 @@ fn states(parts: &[Part], file: &mut ObjFile) {
     file.material_names = materials.list;
 }
 
-/// Adds the names of a part to `all`. Returns the index in `all` of each name of the part, or `None` for an empty name.
+/// Adds the names of a part to `all`. Returns, for each name of the part, its index in `all`, or `None` if the name is
+/// empty.
 fn places(of_part: &Names, all: &mut Names) -> Vec<Option<usize>> {
     let place = |name: &String| (!name.is_empty()).then(|| all.index_of(name.clone()));
     of_part.list.iter().map(place).collect()

@@ -26,8 +26,7 @@ const MAX_PATH_BYTES: usize = 1024;
 ///
 /// # Errors
 ///
-/// Returns an error if the path of a library is not a path inside the folder of the file. A missing library becomes a
-/// note.
+/// Returns an error if the path of a library is not inside the folder of the file. A missing library becomes a note.
 pub(super) fn read_libraries(
     assets: &mut Assets,
     file: &ObjFile,

@@ -23,7 +23,7 @@ use mesh::parallel;
 ///
 /// # Errors
 ///
-/// Returns an error if the path of a library is not a path inside the folder of the file.
+/// Returns an error if the path of a library is not inside the folder of the file.
 pub(crate) fn peek(
     bytes: &[u8],
     name: &str,

@@ -15,8 +15,8 @@ const MRGB_COMMENT: &[u8] = b"#MRGB ";
 /// The maximum number of distinct unknown words that are listed by name.
 pub(super) const MAX_LISTED_WORDS: usize = 8;
 
-/// Parses the statements of a part of a file. Whether indices refer to existing elements is checked later, when all
-/// parts are parsed.
+/// Parses the statements of a part of a file. The indices are checked later, when all parts are parsed, because they
+/// can refer to elements of other parts.
 ///
 /// # Errors
 ///
@@ -132,7 +132,7 @@ impl Parser<'_> {
 
     // ---- Vertices, texture coordinates, normals ------------------------------------------------
 
-    /// Adds a vertex with the first `n` of the values.
+    /// Adds a vertex that has only the first `n` values.
     pub(super) fn vertex(
         &mut self,
         place: TextPosition,
@@ -192,7 +192,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Parses the numbers up to the end of the line, at most N. Returns an array with the numbers, and their count.
+    /// Parses at most N numbers, up to the end of the line. Returns an array with the numbers, and their count.
     fn numbers<const N: usize>(
         &mut self,
         keyword: &str,

@@ -27,8 +27,7 @@ pub(super) struct TextState {
     pub(super) smoothing: i32,
 }
 
-/// The attribute columns of a mesh from which the groups, object, material and smoothing group of each face are
-/// written.
+/// The attribute columns that determine the groups, object, material and smoothing group of each written face.
 pub(super) struct FaceStates<'a> {
     /// The tags that are written as `o` statements. The list is empty, or each face has exactly one of the tags.
     objects: Vec<(&'a str, &'a [bool])>,

@@ -192,8 +192,8 @@ fn numbers<const N: usize>(words: Words) -> Result<[f64; N], Fault> {
     Ok(numbers)
 }
 
-/// The colors of the vertices or of the faces. Whether the components are bytes is known only after all colors are
-/// read.
+/// The colors of the vertices or of the faces. All colors must be read before it is known whether the components are
+/// bytes.
 #[derive(Default)]
 struct Colors {
     /// The color and, if given, the alpha of each element; `None` for a face without a color.

@@ -88,7 +88,8 @@ impl<'a> Body<'a> {
         Ok(tables)
     }
 
-    /// Creates an error about a value, with the line and column in a text file, or the byte in a binary file.
+    /// Creates an error at the position of a value: the line and column in a text file, or the byte offset in a binary
+    /// file.
     pub(super) fn error(
         &self,
         tables: &[Table],

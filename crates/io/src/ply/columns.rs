@@ -72,9 +72,9 @@ pub(super) enum Source<'a> {
     List(usize, &'a [u32]),
 }
 
-/// Decodes the values of an attribute. Corner values are stored as a list for each face. If the length of a list does
-/// not match the number of corners of its face, these corners get zero. Returns the values and the number of faces with
-/// a wrong list.
+/// Decodes the values of an attribute. Corner values are stored as a list for each face. If the length of a list
+/// differs from the number of corners of its face, the corners of the face get zero. Returns the values and the number
+/// of faces with a wrong list.
 pub(super) fn values(table: &Table, source: Source, kind: Kind) -> (Values, usize) {
     #[expect(
         clippy::cast_possible_truncation,

@@ -21,8 +21,7 @@ pub(super) struct Roles {
 impl Roles {
     /// # Errors
     ///
-    /// Returns an error if there are no vertices, or if an element lacks a property that elements with this name must
-    /// have.
+    /// Returns an error if there are no vertices, or if an element lacks a required property.
     pub(super) fn of(header: &Header) -> Result<Self, Fault> {
         let Some((vertex, vertices)) = header.element("vertex") else {
             let place = TextPosition::of_line(header.lines);

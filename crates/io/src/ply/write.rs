@@ -24,7 +24,7 @@ use crate::writing::{finite, is_byte, push_comment, to_byte, uvs_of_vertices};
 use crate::{Format, WriteOptions, WriteReport, fail_if_lost};
 use mesh::parallel;
 
-/// The number of rows in a block of the file, chosen so that a block has a few hundred kilobytes.
+/// The number of rows in a block of the file. A block has a few hundred kilobytes.
 const BLOCK: usize = 8192;
 
 /// Writes the image files in `images`, and then writes `scene` to a little-endian binary PLY file.
@@ -196,7 +196,7 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Adds the values of an attribute as properties with these names, which other programs know.
+    /// Adds the values of an attribute as properties with these names. Other programs know the names.
     fn known(&mut self, names: &[&str], values: Cow<'a, Values>) {
         let opaque = match &*values {
             Values::Vec4(colors) => parallel::all(colors.len(), |i| colors[i].w == 1.0),

@@ -15,7 +15,7 @@ use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::text::BYTE_ORDER_MARK;
 use crate::weld::weld;
 
-/// The texts of notes about content of binary files that is left out.
+/// The texts of notes that report the left-out content of binary files.
 const REST: &str = "bytes left out after the last facet";
 const COLORED: &str = "facets with attribute bytes (possibly colors): these bytes are left out";
 

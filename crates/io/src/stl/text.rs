@@ -77,12 +77,12 @@ fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     })
 }
 
-/// Counts the facets of a text file by the word `endfacet`.
+/// Counts the facets of a text file: the occurrences of the word `endfacet`.
 pub(super) fn count(bytes: &[u8]) -> u64 {
     count_words(bytes, b"endfacet")
 }
 
-/// Counts the solids of a text file by the word `endsolid`.
+/// Counts the solids of a text file: the occurrences of the word `endsolid`.
 pub(super) fn n_solids(bytes: &[u8]) -> u64 {
     count_words(bytes, b"endsolid")
 }

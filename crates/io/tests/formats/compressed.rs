@@ -32,7 +32,7 @@ fn compressed_files_have_the_content_of_plain_files() {
         let first = mesh_io::write(&store, plain, &scene, &options).unwrap();
         let second = mesh_io::write(&store, packed, &scene, &options).unwrap();
         assert_eq!(first.losses, second.losses);
-        // The decompressed bytes are the bytes of the file that was written without compression.
+        // The decompressed bytes equal the bytes of a file that is written without compression.
         let bytes = store.read(packed).unwrap();
         let mut content = Vec::new();
         let mut decoder = flate2::read::GzDecoder::new(&bytes[..]);

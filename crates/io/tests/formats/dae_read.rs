@@ -98,7 +98,7 @@ pub(crate) fn notes(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns the faces of a file whose geometry consists of one list of this kind with this content.
+/// Creates a file whose geometry is one list of polygons with this kind and content. Returns the faces of the file.
 pub(crate) fn faces(kind: &str, content: &str) -> Vec<Vec<usize>> {
     polygons(&mesh(&file(
         &format!("<{kind}>{VERTEX}{content}</{kind}>"),

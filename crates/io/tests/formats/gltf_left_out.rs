@@ -128,7 +128,7 @@ fn names_of_textures_and_extras_of_materials_are_kept() {
     }
 }
 
-/// What happens to a part of a file when the file is read and written.
+/// The outcome for a part of a file when the file is read and written.
 #[derive(Clone)]
 enum Outcome {
     /// The values at these JSON pointers are unchanged. If a pointer refers to an attribute of a morph target, the

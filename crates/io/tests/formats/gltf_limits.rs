@@ -72,7 +72,7 @@ fn a_container_with_a_wrong_length_is_refused() {
     }
 }
 
-/// Returns the error of reading the document, and checks that reading takes little time.
+/// Reads the document, which must be refused. Returns the error, and checks that reading takes little time.
 fn error_quickly(json: &Value) -> String {
     let start = Instant::now();
     let error = read_baked(json).unwrap_err();

@@ -66,8 +66,8 @@ fn torus() -> Mesh {
     mesh
 }
 
-/// Returns a scene with three objects. Two descendants of a root node with a scale reference the first and the second
-/// object. Another root node also references the first object. No node references the third object.
+/// Returns a scene with three objects. A root node has a scale, and two of its descendants reference the first and the
+/// second object. Another root node also references the first object. No node references the third object.
 fn placed() -> Scene {
     let mut scene = scene([
         Object::mesh("torus", torus()),

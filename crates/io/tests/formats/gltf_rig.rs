@@ -63,7 +63,7 @@ impl Accessors {
     }
 }
 
-/// The number of rings of vertices of the arm.
+/// The arm consists of this number of rings of vertices.
 const RINGS: usize = 5;
 
 /// Returns the vertices of an arm along the y axis. The arm consists of rings of four vertices.
@@ -199,7 +199,7 @@ pub(crate) fn changed_scene(change: impl Fn(&mut Value)) -> Scene {
     scene_of(loaded)
 }
 
-/// Writes a scene and returns the document and its buffer, and the losses.
+/// Writes a scene. Returns the document, its buffer and the losses.
 pub(crate) fn output(scene: &Scene) -> (Value, Vec<u8>, Vec<String>) {
     let folder = Folder::new();
     let path = folder.path("a.gltf");

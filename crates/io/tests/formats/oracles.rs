@@ -195,7 +195,7 @@ proptest! {
                 prop_assert_eq!(&normals[c].to_array()[..], &theirs.normals[3 * n..3 * n + 3]);
             }
         }
-        // Other line ends do not change the result, and neither do lines that continue after a backslash.
+        // Neither other line ends nor lines that continue after a backslash change the result.
         for (from, to) in [("\n", "\r"), (" ", " \\\n")] {
             let other = text.replace("\r\n", "\n").replace(from, to);
             let other = folder.with("b.obj", other);

@@ -274,7 +274,7 @@ fn triangles_of_a_strip_need_little_more_than_a_byte_each() {
         })
         .collect();
     assert!(check_triangles(&strip) < 10_030);
-    // The vertices of the second strip start at 0 again.
+    // The vertex indices of the second strip start at 0 again.
     assert!(check_triangles(&[&strip[..], &strip].concat()) < 20_060);
 }
 

@@ -157,8 +157,8 @@ fn meshes(a: &Mesh, b: &Mesh, soup: bool, all: &mut Differences) {
     }
 }
 
-/// Returns the kind of difference between numbers. Whether numbers are equal after rounding to 32 bits is checked only
-/// approximately, because glTF stores 1 - v instead of the texture coordinate v.
+/// Returns the kind of difference between numbers. The check for equality after rounding to 32 bits is only
+/// approximate, because glTF stores 1 - v instead of the texture coordinate v.
 fn rows_differ(a: &[Row], b: &[Row]) -> Option<Difference> {
     if a == b {
         return None;

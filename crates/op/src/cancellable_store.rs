@@ -1,4 +1,4 @@
-//! A store whose writing stops when a run is canceled.
+//! A store that stops writing when the run is canceled.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -94,8 +94,8 @@ struct CancellableFile<'a> {
 
 impl Write for CancellableFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // The size of the file is unknown, so each report says that 0 of 1 parts are finished. The report is needed to
-        // find out whether the run was canceled.
+        // The size of the file is unknown, so each report says that 0 of 1 parts are finished. The call fails if the
+        // run was canceled.
         self.progress
             .report("write", 0, 1)
             .map_err(io::Error::other)?;

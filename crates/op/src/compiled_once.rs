@@ -4,8 +4,8 @@
 /// `#[serde(remote = "Self")]`.
 ///
 /// The code that Serde derives is generic over the format, so it would be compiled again in every crate that has a step
-/// with a field of this type. The implementations of this macro call the derived code through trait objects, so the
-/// derived code is compiled only once, in this crate.
+/// with a field of this type. This macro writes implementations that pass trait objects to the derived code. The
+/// derived code is therefore compiled only once, in this crate.
 macro_rules! compiled_once {
     ($name:ident) => {
         impl<'de> serde::Deserialize<'de> for $name {

@@ -13,8 +13,8 @@ use crate::{CancellableStore, Files, OpError};
 pub struct Context<'a> {
     progress: &'a dyn Progress,
     files: &'a Files,
-    /// The names of the objects in the step's `on:`. `None` if the step has no `on:`; it then acts on all objects that
-    /// it supports.
+    /// The names of the objects in the step's `on:`. `None` if the step has no `on:`. Such a step acts on all objects
+    /// that its operation supports.
     pub on: Option<&'a [String]>,
     /// The label of the step in the recipe. The selection `Random` is seeded with this label and with its own `seed`,
     /// so two steps with the same seed select different elements. Random positions and numbers, such as those of

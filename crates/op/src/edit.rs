@@ -18,8 +18,8 @@ pub enum OnRefusal {
 }
 
 impl OnRefusal {
-    /// Returns the range of the number of elements that the step will edit. With [`OnRefusal::Error`], the step edits
-    /// all selected elements. With [`OnRefusal::Skip`], the step can edit any number of the selected elements.
+    /// Returns how many elements the step will edit, as a range. With [`OnRefusal::Error`], the step edits all selected
+    /// elements. With [`OnRefusal::Skip`], the step can edit any number of the selected elements.
     #[must_use]
     pub fn done(self, selected: Range) -> Range {
         match self {
@@ -37,11 +37,12 @@ impl OnRefusal {
         }
     }
 
-    /// Returns the error `refused`, or counts the refusal in the report and returns `Ok`.
+    /// Handles a refused edit: returns the refusal as an error, or counts it in the report and returns `Ok`.
     ///
     /// # Errors
     ///
-    /// Returns `refused` if `self` is [`OnRefusal::Error`], or if `refused` is not an [`OpError::Refused`].
+    /// Returns the argument `refused` if `self` is [`OnRefusal::Error`], or if this argument is not an
+    /// [`OpError::Refused`].
     pub fn refuse(self, refused: OpError, report: &mut Report) -> Result<(), OpError> {
         match self {
             Self::Error => Err(refused.skippable()),
@@ -76,7 +77,7 @@ pub trait EditTarget: Copy {
     /// Returns the elements of this target.
     fn elements(self) -> Vec<Element>;
 
-    /// Asks the processor to prefetch the memory for the edits that follow index `at` in the list.
+    /// Asks the processor to prefetch the memory of list items a little after index `at`, which are edited soon.
     fn fetch_ahead(_: &Mesh, _: &[Self], _at: usize) {}
 }
 

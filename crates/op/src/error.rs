@@ -20,7 +20,7 @@ pub enum Refusal {
     NotBoundary,
     /// A face is not a triangle, but the edit needs a triangle.
     NotTriangle,
-    /// Both triangles of an edge have the same opposite vertex.
+    /// The two triangles at an edge have the same third vertex.
     SameOpposite,
     /// The same face lies on both sides of an edge, or would lie on both sides after the edit.
     SameFace,
@@ -32,7 +32,7 @@ pub enum Refusal {
     FewCorners,
     /// A face would have the same vertex at two corners.
     RepeatedVertex,
-    /// After the edit, no faces would be left where the edge was, or only two faces that lie back to back.
+    /// The edit would leave no faces at the place of the edge, or only two faces that lie back to back.
     Vanishes,
     /// The two ends of an edge cannot be merged because they have a common neighbor that is not a corner of a triangle
     /// at the edge.
@@ -118,8 +118,7 @@ pub enum OpError {
         reason: Refusal,
         /// A message that describes the refusal and names the elements.
         message: String,
-        /// The elements that caused the refusal. The ids are those that the elements had in the mesh when the edit was
-        /// refused.
+        /// The elements that caused the refusal, with the ids that they had when the edit was refused.
         elements: Vec<Element>,
         /// The locations of the elements.
         places: Vec<ErrorLocation>,
@@ -155,7 +154,7 @@ impl OpError {
         }
     }
 
-    /// Records that the refused operation has the parameter `on_refusal`.
+    /// If the error is a refusal, records that the operation has the parameter `on_refusal`.
     #[must_use]
     pub fn skippable(mut self) -> Self {
         if let Self::Refused { can_skip, .. } = &mut self {
@@ -178,8 +177,8 @@ impl OpError {
         ))
     }
 
-    /// Creates the error for a refused edit of the elements `edited`. The message of the error names each edge by its
-    /// two vertices, as recipes do.
+    /// Creates the error for an edit that was refused. `edited` contains the elements to which the edit was applied.
+    /// The error message names each edge by its two vertices, as recipes do.
     pub fn refused_edit(refusal: EditError, mesh: &Mesh, edited: &[Element]) -> Self {
         let between = |element: Element| {
             let Element::Edge(e) = element else {
@@ -205,7 +204,7 @@ impl OpError {
         Self::refused(refusal.into(), message).about(elements)
     }
 
-    /// Sets the elements of the error, if it is a refusal.
+    /// Sets the elements of the error if the error is a refusal.
     #[must_use]
     pub fn about<E: Into<Element>>(mut self, about: impl IntoIterator<Item = E>) -> Self {
         if let Self::Refused { elements, .. } = &mut self {
@@ -222,7 +221,8 @@ impl OpError {
         }
     }
 
-    /// Sets the locations of the elements, if the error is a refusal. `object` is the name of the object with the mesh.
+    /// Sets the locations of the elements, if the error is a refusal. `object` is the name of the object that contains
+    /// `mesh`.
     #[must_use]
     pub(crate) fn placed(mut self, object: &str, mesh: &Mesh) -> Self {
         if let Self::Refused {

@@ -1,4 +1,4 @@
-//! The locations in a scene that an error of an operation refers to.
+//! The locations in a scene to which the error of an operation refers.
 
 pub use scene::ErrorLocation;
 

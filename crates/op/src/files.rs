@@ -57,7 +57,7 @@ pub struct Files {
     pub log: FileLog,
 }
 
-/// A log of all uses of files, in the order of time. All clones of a `FileLog` share the same list of entries.
+/// A log of all uses of files, in chronological order. All clones of a `FileLog` share the same list of entries.
 #[derive(Clone, Debug, Default)]
 pub struct FileLog(Arc<Mutex<Vec<FileUse>>>);
 

@@ -55,7 +55,7 @@ impl MeshPlan {
         }
     }
 
-    /// Creates the plan of a mesh with known counts that has no attributes and no materials.
+    /// Creates the plan of a mesh with these counts, without attributes and materials.
     pub const fn counted(vertices: u64, edges: u64, faces: u64, degrees: Range) -> Self {
         Self {
             vertices: Range::exactly(vertices),
@@ -100,8 +100,8 @@ impl MeshPlan {
         self.degrees == Range::exactly(3)
     }
 
-    /// Returns the range of the total number of corners of some faces of the mesh. `faces` is the number of these
-    /// faces. The total is at most twice the number of edges of the mesh.
+    /// Returns how many corners a part of the faces has in total, as a range. `faces` is the number of faces in this
+    /// part. The total is at most twice the number of edges of the mesh.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)
     }
@@ -163,8 +163,8 @@ impl MeshPlan {
             .count()
     }
 
-    /// Returns the range of the size of the mesh, in bytes. The size does not include attributes that are missing from
-    /// the plan.
+    /// Returns the smallest and the largest possible size of the mesh, in bytes. The size does not include attributes
+    /// that are missing from the plan.
     pub fn bytes(&self) -> Range {
         let count = |domain| match domain {
             Domain::Vertex => self.vertices,
@@ -190,8 +190,8 @@ fn missing_element_message(number: u64, count: Range, noun: &str) -> Option<Stri
     (number >= count.max).then(message)
 }
 
-/// Returns the range of the size of one value of an attribute, in bytes. The range starts at 0 if it is not certain
-/// that the attribute exists.
+/// Returns the smallest and the largest possible size of one value of an attribute, in bytes. The smallest size is 0 if
+/// the attribute possibly does not exist.
 fn value_bytes(attribute: &PlannedAttribute) -> Range {
     let name = &attribute.name;
     let exactly = |bytes: usize| Range::exactly(bytes as u64);

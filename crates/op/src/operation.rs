@@ -21,8 +21,8 @@ pub trait MeshOperation:
 {
     /// The name of the operation in recipes. The struct has the same name.
     const NAME: &'static str;
-    /// The version of the results. Increase it if a new version of the program can give a different result for the same
-    /// parameters and input.
+    /// The version of the operation's results. Increase this number after each change of the code that can change the
+    /// result for the same parameters and input.
     const VERSION: u32 = 1;
     /// What the operation does, in one line without a full stop, for lists of operations.
     const SUMMARY: &'static str;
@@ -57,12 +57,12 @@ pub trait MeshOperation:
     }
 
     /// Changes `plan` in the same way as [`apply`](Self::apply) will change the mesh. Returns the problems of the step.
-    /// `plan` runs before any geometry exists, and must be fast.
+    /// This method runs before any geometry exists, and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the mesh. The mesh [is dense](Mesh::is_dense): no element is dead, so ids are indices into its arrays,
-    /// such as `positions()`. This method must call [`Context::advance`] before the first change. An operation that
-    /// computes a new mesh stores it with [`Mesh::replace`].
+    /// Changes the mesh. The mesh [is dense](Mesh::is_dense): no element is dead, so ids are indices into the arrays of
+    /// the mesh, such as `positions()`. This method must call [`Context::advance`] before the first change. An
+    /// operation that computes a new mesh stores it with [`Mesh::replace`].
     ///
     /// # Errors
     ///
@@ -77,8 +77,8 @@ pub trait Operation:
 {
     /// The name of the operation in recipes. The struct has the same name.
     const NAME: &'static str;
-    /// The version of the results. Increase it if a new version of the program can give a different result for the same
-    /// parameters and input.
+    /// The version of the operation's results. Increase this number after each change of the code that can change the
+    /// result for the same parameters and input.
     const VERSION: u32 = 1;
     /// What the operation does, in one line without a full stop, for lists of operations.
     const SUMMARY: &'static str;

@@ -123,8 +123,8 @@ impl Plan {
         &mut self.objects
     }
 
-    /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of `take_edited`. If
-    /// `objects_mut` was not called, the list of objects can only have changed by the addition of objects at its end.
+    /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of `take_edited`. If it was
+    /// not called, the list of objects is unchanged, except that objects were possibly added at its end.
     pub fn take_edited(&mut self) -> bool {
         std::mem::take(&mut self.is_edited)
     }
@@ -143,7 +143,7 @@ impl Plan {
     pub fn free_name(&mut self, name: &str) -> String {
         self.fill_index();
         // `taken_numbers` contains the last number that was chosen for this name. All lower numbers are still taken,
-        // because removing an object clears this map.
+        // because the map is cleared whenever an object is removed.
         let first = self.taken_numbers.get(name).copied().unwrap_or(1);
         let is_free = |(_, name): &(u64, String)| !self.index_by_name.contains_key(name);
         let (number, free) = numbered(name, first)
@@ -203,7 +203,7 @@ impl Plan {
 
     /// Returns the graph of the nodes that place the objects in the scene. The graph also contains the skins and
     /// animations. The scales, rotations and hierarchy of these nodes are exact. Translations that are computed from
-    /// points can differ from those of the scene. [`Graph::arrays`] is incomplete.
+    /// points can differ from the translations in the scene. [`Graph::arrays`] is incomplete.
     pub fn graph(&self) -> &Graph {
         &self.graph
     }

@@ -10,7 +10,7 @@ pub struct Problem {
     /// The path of the parameter: names of fields and variants, and indices of list items, from the outermost to the
     /// innermost. The path is empty if the problem concerns the whole step.
     pub path: Vec<String>,
-    /// Whether the problem is only a warning, which does not keep the recipe from running.
+    /// Whether the problem is only a warning. A recipe can run in spite of warnings.
     pub is_warning: bool,
 }
 

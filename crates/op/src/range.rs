@@ -89,8 +89,8 @@ impl Range {
         self.times(Self::exactly(n))
     }
 
-    /// Returns the range from 0 to the highest count. Use this method if a step can remove or omit any number of the
-    /// elements.
+    /// Returns the range from 0 to the highest count of this range. Use this method if a step can remove or omit any
+    /// number of the elements.
     #[must_use]
     pub const fn or_less(self) -> Self {
         Self::at_most(self.max)
@@ -105,7 +105,7 @@ impl Range {
         }
     }
 
-    /// Returns this range, with each end that is greater than `cap` replaced with `cap`.
+    /// Returns this range after both ends are limited to at most `cap`.
     #[must_use]
     pub fn capped(self, cap: u64) -> Self {
         Self {

@@ -25,7 +25,7 @@ pub struct Registry {
 pub struct Entry {
     /// The name of the step in recipes.
     pub name: &'static str,
-    /// The version of the results of the operation.
+    /// The version of the operation's results.
     pub version: u32,
     /// What the operation does, in one line.
     pub summary: &'static str,
@@ -98,7 +98,7 @@ impl Registry {
         Self::default()
     }
 
-    /// Adds an operation. If another operation already has one of the current or earlier names of the new operation,
+    /// Adds an operation. If the new operation shares a current or earlier name with another operation,
     /// [`check`](Self::check) reports the conflict.
     #[must_use]
     pub fn with<T: Operation>(mut self) -> Self {
@@ -114,8 +114,8 @@ impl Registry {
         self
     }
 
-    /// Removes each operation whose current or earlier name is the name of the new operation, and then adds the new
-    /// operation.
+    /// Adds an operation. Before that, removes each operation that has the name of the new operation as its current
+    /// name or as an earlier name.
     #[must_use]
     pub fn with_override<T: Operation>(mut self) -> Self {
         self.entries
@@ -143,7 +143,7 @@ impl Registry {
         &self.entries
     }
 
-    /// Returns the operation whose current name, or one of whose earlier names, is `name`.
+    /// Returns the operation that has `name` as its current name or as an earlier name.
     pub fn get(&self, name: &str) -> Option<&Entry> {
         self.entries
             .iter()
@@ -220,7 +220,7 @@ pub fn to_ron(value: &dyn erased_serde::Serialize) -> String {
     ron::to_string(value).expect("parameters are plain data")
 }
 
-/// Returns the record of the animation channels that the step lost; `None` if it lost none. `before` is the number of
+/// Returns the loss of animation channels in the step; `None` if no channel was lost. `before` is the number of
 /// animation channels before the step.
 fn lost_channels(before: usize, graph: &Graph) -> Option<Loss> {
     let lost = before.saturating_sub(graph.n_channels());

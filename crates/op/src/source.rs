@@ -9,9 +9,10 @@ use scene::{Object, Scene};
 use crate::plan::numbered;
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
-/// The largest number of edges of a mesh that is built from polygons. Each edge is a side of at most two faces, so the
-/// faces have at most two corners for each edge. A corner can need a separate edge, that is, two half-edges. The mesh
-/// can therefore have up to four half-edges for each edge. The largest possible id of a half-edge is 2^32 - 2.
+/// The largest planned number of edges of a mesh that is built from polygons. Each edge is a side of at most two
+/// polygons, so polygons with n edges have at most 2 n corners. While the mesh is built, each corner can need a
+/// separate edge, which has two half-edges. The mesh can therefore need 4 n half-edges. The largest possible id of a
+/// half-edge is 2^32 - 2.
 const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 
 /// A mesh that a step creates. A `Source` consists of the name of the new object, the planned element counts of its

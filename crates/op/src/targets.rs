@@ -10,7 +10,7 @@ use scene::{Geometry, Scene};
 use crate::source::named_object;
 use crate::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range, Report};
 
-/// The parts of messages about the kind of objects that an operation can change.
+/// Words for messages about the kind of objects that an operation can change.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetKind {
     /// The name of the operation.
@@ -80,7 +80,7 @@ impl TargetKind {
 }
 
 /// Returns the names of the objects that a step acts on, in the order of the scene. If the step has `on:`, it acts on
-/// the objects named there. A step without `on:` acts on all objects whose geometry `is_wanted` accepts.
+/// the objects named there. A step without `on:` acts on all objects for whose geometry `is_wanted` returns true.
 ///
 /// # Errors
 ///
@@ -110,8 +110,8 @@ pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     Cow::Owned(scene.only(|name| on.iter().any(|wanted| wanted == name)))
 }
 
-/// Plans an operation on curves. `change` receives the possible number of control points of a curve. `change` returns
-/// the planned geometry that replaces the curve, and the problems of the step.
+/// Plans an operation on curves. `change` receives the number of control points of a curve, as a range. `change`
+/// returns the planned geometry that replaces the curve, and the problems of the step.
 pub fn plan_curves(
     operation: &'static str,
     plan: &mut Plan,

@@ -24,13 +24,13 @@ selection! {
         Between(u32, u32),
         /// Edges at which the normals of the two faces differ by more than the angle `above`.
         Sharp {
-            /// The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
+            /// The lower limit of the angle between the normals, in degrees, from 0 (flat) to 180. Boundary edges have
             /// no angle and are never sharp.
             above: AngleBetween,
         },
         /// Edges at which the normals of the two faces differ by less than the angle `below`.
         Flat {
-            /// The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
+            /// The upper limit of the angle between the normals, in degrees, from 0 (flat) to 180. Boundary edges have
             /// no angle and are never flat.
             below: AngleBetween,
         },

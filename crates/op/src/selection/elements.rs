@@ -42,8 +42,8 @@ impl ElementKind {
     /// All three kinds.
     pub const ALL: [Self; 3] = [Self::Vertices, Self::Edges, Self::Faces];
 
-    /// Returns the names of the selections that select elements of this kind from a selection of elements of the kind
-    /// `other`. For example, `EdgesOf` selects the edges of faces. The list is empty if both kinds are the same.
+    /// Returns the names of the selections that convert elements of the kind `other` to elements of this kind. For
+    /// example, `EdgesOf` converts faces to their edges. The list is empty if both kinds are the same.
     pub fn conversions(self, other: Self) -> &'static [&'static str] {
         match (self, other) {
             (Self::Vertices, Self::Edges) => &["EndsOf"],

@@ -161,7 +161,7 @@ pub use vertex::VertexSelection;
 
 /// The variants that all selection types share. The macro `selection` documents each variant.
 enum Shared<'a, S> {
-    /// Any variant that only one of the selection types has.
+    /// Stands for every variant that the selection types do not share.
     Own,
     All,
     Inside(&'a Region),
@@ -218,7 +218,7 @@ pub trait Select: Sized + Sync {
     /// Returns the errors of [`resolve`](Self::resolve).
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError>;
 
-    /// Returns the range of the number of elements that this selection selects in a planned mesh.
+    /// Returns how many elements this selection selects in a planned mesh, as a range.
     fn count(&self, plan: &MeshPlan) -> Range;
 
     /// Returns all elements of a mesh.
@@ -324,7 +324,7 @@ impl<S: Select> Shared<'_, S> {
         })
     }
 
-    /// Returns the range of the number of elements that the variant selects. `all` is the number of all elements.
+    /// Returns how many elements the variant selects, as a range. `all` is the number of all elements.
     fn count(&self, all: Range, plan: &MeshPlan) -> Range {
         match self {
             Self::All => all,
@@ -447,8 +447,8 @@ fn lowest<S: Select, K: PartialOrd>(
     chosen
 }
 
-/// Adds a note to the report if a selection chooses `count` elements but fewer are available. `mask` marks the elements
-/// that are available for the choice.
+/// Adds a note to the report if a selection must choose `count` elements but fewer are available. `mask` marks the
+/// elements that are available for the choice.
 fn note_if_fewer<S: Select>(choice: &str, count: u32, mask: &[bool], cx: &Context) {
     let available = mask.iter().filter(|&&m| m).count();
     if available < count as usize {

@@ -1,4 +1,4 @@
-//! Reverse: reverses the orientation of faces, so that their other side is the outside.
+//! Reverse: reverses the orientation of faces, so that inside and outside are exchanged.
 //!
 //! ```text
 //!       c                    c

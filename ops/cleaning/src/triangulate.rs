@@ -8,7 +8,7 @@
 //!    a ------- b          a ------- b          '---'                  '---'
 //! ```
 //!
-//! A face with n corners becomes n - 2 triangles. In the order of the faces, the triangles take the place of the face.
+//! A face with n corners becomes n - 2 triangles. In the list of faces, the triangles take the place of the face.
 //! Vertices and edges keep their ids, and the n - 3 diagonals get the highest edge ids. [`Triangulate`] documents which
 //! diagonals are chosen. The half-edges of the mesh are kept, and new half-edges are added. The mesh is not built again
 //! from triangles, so a closed mesh stays closed even where two diagonals join the same two vertices.
@@ -26,22 +26,23 @@ use op::prelude::*;
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is cut
 /// along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the relative
 /// difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero area or is
-/// turned over: clockwise where the face is counter-clockwise. If the diagonal that was chosen by length or id is bad
-/// and the other diagonal is not bad, the other diagonal is used. A quadrilateral with a reflex corner (an angle above
-/// 180 degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by
-/// a diagonal of another face. A duplicate is replaced with the other diagonal if the other diagonal is not a
-/// duplicate, and if either both diagonals are bad or neither is bad. The report counts the duplicates that remain.
+/// turned over: clockwise where the face is counter-clockwise. If exactly one diagonal is bad, the good diagonal is
+/// used, regardless of lengths and ids. A quadrilateral with a reflex corner (an angle above 180 degrees) is therefore
+/// cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by a diagonal of another
+/// face. If both diagonals of a quadrilateral are bad or both are good, the step avoids duplicates: it replaces a
+/// duplicate with the second diagonal, unless this diagonal is also a duplicate. The report counts the duplicates that
+/// remain.
 ///
 /// A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or into
 /// monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
-/// constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces whose
-/// sides cross, faces with more than 4096 corners whose sides overlap, and faces with more than ten million corners. A
-/// face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest id. The report
-/// counts these faces.
+/// constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces with
+/// crossing sides, faces with more than 4096 corners and with overlapping sides, and faces with more than ten million
+/// corners. Each of these faces becomes a triangle fan around its vertex with the lowest id. The report counts these
+/// faces.
 ///
 /// In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids. The
-/// triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the values of
-/// the old face's corner at the same vertex.
+/// triangles have the values of the face. Vertices and edges keep their ids. Each corner of a triangle has the values
+/// that the face had at the same corner.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Triangulate {
@@ -55,8 +56,8 @@ impl MeshOperation for Triangulate {
     const SUMMARY: &'static str = "Cut polygons into triangles";
     const EXAMPLE: &'static str = "Triangulate()";
     // Since version 2 of the operation, faces with more than 4096 corners are first cut into smaller polygons. Since
-    // version 3, these polygons are monotone. If several diagonals are equally good, versions 2 and 3 can each choose
-    // other diagonals than the version before.
+    // version 3, these polygons are monotone. In both versions, the choice between equally good diagonals can differ
+    // from the previous version.
     const VERSION: u32 = 3;
     const WORDS: &'static [&'static str] = &["triangles", "ears"];
 
@@ -100,9 +101,8 @@ impl MeshOperation for Triangulate {
         cx.advance("triangulate", 1, 3)?;
         let duplicates = duplicates::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
-        // For each half-edge, the arrays of the new mesh store three ids, and `assemble` stores the half-edge from
-        // which the attribute values are copied. Each of these four arrays is extended once, which needs additional
-        // memory.
+        // For each half-edge, the arrays of the new mesh store three ids, and `assemble` stores one more id in
+        // `corner_sources`. While an array is extended, its old and its new memory can be in use at the same time.
         let n_half_edges = mesh.n_half_edges() + 2 * diagonals;
         mesh::require_memory(24 * n_half_edges + 24 * mesh.n_vertices());
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));

@@ -10,8 +10,8 @@
 //!
 //! Vertices at most `distance` apart are linked, and vertices that are connected by links merge into one. For example,
 //! two vertices that are 0.9 times `distance` apart always merge. Two vertices that are 1.1 times `distance` apart
-//! merge only if a chain of other vertices links them. Which vertices merge does not depend on the order of the
-//! vertices. The result does not depend on the number of threads.
+//! merge only if a chain of other vertices links them. The choice of the vertices to merge does not depend on the order
+//! of the vertices or on the number of threads.
 
 use mesh::{VERTEX_NORMAL, counted};
 use op::prelude::*;
@@ -21,16 +21,16 @@ use op::prelude::*;
 /// Two vertices are linked if they are at most `distance` apart. Vertices that are connected by a chain of links merge
 /// into one, even if the ends of the chain are farther apart than `distance`. Of the vertices that merge, the vertex
 /// with the lowest id remains, with its position and values. The other vertices are removed, so vertices with higher
-/// ids get new ids. If several edges then join the same two vertices, they become one edge with the values of the edge
-/// with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
+/// ids get new ids. If several edges then join the same two vertices, they become one edge. It gets the values of the
+/// edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
 ///
 /// If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-/// corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations. If
-/// all orientations in a connected part of the mesh can be made to agree, the step reverses the faces with the less
-/// frequent orientation. If faces are reversed, the report counts them, and the normals of vertices and corners are
-/// dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three faces share an
-/// edge, one of these faces gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
-/// not change.
+/// corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations. The
+/// step then reverses faces, so that all faces of a connected part have the same orientation, if this is possible. Of
+/// the two orientations, the more frequent one is kept. The report counts the reversed faces. If there are any, the
+/// normals of vertices and corners are dropped. If the result is still not a manifold, vertices and edges are copied.
+/// For example, if three faces share an edge, one of these faces gets a copy of the edge. The report counts the copies.
+/// If no vertices merge, the mesh does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weld {
@@ -46,7 +46,7 @@ impl MeshOperation for Weld {
     const DONE: &'static str = "merged";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The step drops the normals if it reverses faces, so it is not certain that the normals are kept.
+        // If the step reverses faces, it drops the normals. The normals are therefore uncertain after the step.
         for attribute in &mut plan.attributes {
             attribute.certain &= attribute.name != VERTEX_NORMAL.name;
         }

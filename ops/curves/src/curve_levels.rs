@@ -1,4 +1,4 @@
-//! De Casteljau's construction of one point of a Bezier curve, as polylines.
+//! Shows how de Casteljau's algorithm constructs a point of a Bezier curve, as polylines.
 //!
 //! ```text
 //!        p1 ---- q1 ------ p2          p: level 0, the control polygon

@@ -154,8 +154,8 @@ impl Tessellate {
         cx: &Context,
     ) -> Result<(), OpError> {
         let counts = counts(patches, self.segments.get(), self.faces.into()).map_err(too_large)?;
-        // Each corner can need a separate edge, and each edge has two half-edges. A mesh can therefore have at most
-        // half as many corners as there are half-edge ids.
+        // Each corner can need a separate edge, and each edge has two half-edges. The number of corners is therefore
+        // limited to half the number of half-edge ids.
         let max = (u32::MAX - 1) / 2;
         if counts.corners > u64::from(max) {
             let corners = counts.corners;
@@ -229,8 +229,8 @@ impl Tessellate {
     }
 }
 
-/// Appends values to `values` for the copies of vertices that were added when the mesh was built. Each copy gets the
-/// value of its original.
+/// When the mesh was built, some vertices were copied. Returns `values` with one more value for each copy: the value of
+/// the original vertex.
 fn with_copies(mut values: Vec<DVec3>, report: &BuildReport) -> Vec<DVec3> {
     for (original, _) in &report.split_vertices {
         values.push(values[original.index()]);

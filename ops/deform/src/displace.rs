@@ -22,8 +22,8 @@ use crate::moved::moved;
 /// as isolated vertices, do not move. The report counts these vertices. Normals and tangents are dropped. Faces,
 /// element ids and other attributes do not change.
 ///
-/// The computation uses only functions that give the same results on all machines, so the displaced mesh is identical
-/// on all machines.
+/// The displaced mesh is identical on all machines, because the computation uses only functions that do not depend on
+/// the machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Displace {

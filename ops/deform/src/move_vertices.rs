@@ -34,8 +34,8 @@ pub struct MoveVertices {
     pub vertices: VertexSelection,
     /// How the vertices move.
     pub by: MoveBy,
-    /// The distance from the selected vertices at which the movement has fallen to 0, in scene units. If omitted, only
-    /// the selected vertices move.
+    /// The distance from the selected vertices at which the movement becomes 0, in scene units. If omitted, only the
+    /// selected vertices move.
     #[serde(default)]
     pub falloff: Option<PositiveLength>,
 }

@@ -45,9 +45,9 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. If `from` is `None`, the
-    /// part starts at the lowest coordinate of the mesh along the axis. If `to` is `None`, the part ends at the highest
-    /// coordinate.
+    /// Creates the part from the coordinate `from` to the coordinate `to` of an axis that goes through `about`. If
+    /// `from` is `None`, the part starts at the lowest coordinate of the mesh along the axis. If `to` is `None`, the
+    /// part ends at the highest coordinate.
     pub(crate) const fn new(
         axis: Axis,
         about: Vector,
@@ -93,8 +93,8 @@ impl Stretch {
         let about: DVec3 = self.about.into();
         let towards = unit(towards);
         Ok(Frame {
-            // `from` and `to` are coordinates of points along the axis. The coordinate of the origin along the axis is
-            // therefore 0, and not that of `about`.
+            // `from` and `to` are measured from the origin of the scene, not from `about`. The origin of the frame is
+            // therefore the point of the axis at the coordinate 0.
             origin: about - axis * axis.dot(about),
             axes: [towards, axis.cross(towards), axis],
             from,

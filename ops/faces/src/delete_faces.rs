@@ -19,9 +19,9 @@ use op::prelude::*;
 /// with their faces, select the faces with `FacesBeside(edges)` or `FacesAround(vertices)`.
 ///
 /// The removal is refused if the remaining faces around a vertex would form several fans (groups of faces that are
-/// connected across edges) that meet only at that vertex. In this case, the step with `on_refusal: Skip` tries to
-/// remove the faces one by one, in order of their ids. The step repeats these attempts until no more selected faces can
-/// be removed. Selected faces that still cannot be removed are kept, and the report counts them as refused.
+/// connected across edges) that meet only at that vertex. With `on_refusal: Skip`, the step then tries to remove the
+/// faces one by one, in order of their ids. The step repeats these attempts until no more selected faces can be
+/// removed. Selected faces that still cannot be removed are kept, and the report counts them as refused.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeleteFaces {
@@ -83,8 +83,8 @@ impl MeshOperation for DeleteFaces {
     }
 }
 
-/// Tries to remove the faces one by one, and then tries again with the faces whose removal was refused. Stops when all
-/// `faces` are removed, or when no further face can be removed.
+/// Tries to remove the faces one by one, and then tries again to remove the faces that could not be removed. Stops when
+/// all `faces` are removed, or when no further face can be removed.
 fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Report, OpError> {
     let total = faces.len();
     let mut refused: Vec<(FaceId, EditError)> = Vec::new();

@@ -36,7 +36,7 @@ use region::Region;
 /// move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by region (by the
 /// lowest face id of each region), then by the id of the adjacent moved face. Around each moved face, the order is
 /// counter-clockwise from its first corner. Each side face adds one new vertex, so the new vertices are in the order of
-/// the side faces. A new vertex is a copy of the first vertex of its side face. The first vertex is on the old rim.
+/// the side faces. A new vertex is a copy of a vertex on the old rim: the first vertex of its side face.
 ///
 /// A side face has the attribute values (material, tags) of the adjacent moved face. The corners of a side face have
 /// the values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
@@ -102,8 +102,7 @@ impl MeshOperation for ExtrudeFaces {
     const WORDS: &'static [&'static str] = &["offset", "thicken"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The total number of edges of all rims is at most the total number of sides of the selected faces. No edge is
-        // on two rims.
+        // All rims together have at most as many edges as the selected faces have sides. No edge is on two rims.
         let sides = self.faces.count(plan).times(plan.degrees);
         let rim = sides.capped(plan.edges.max).or_less();
         plan.grow(rim, rim.by(2), rim);
@@ -155,7 +154,7 @@ impl MeshOperation for ExtrudeFaces {
     }
 }
 
-/// Applies the linear map `linear` to the vertices of a region. The center of the region is the fixed point.
+/// Applies the linear map `linear` to the vertices of a region. The center of the region does not move.
 fn transform(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpError> {
     if linear == DMat3::IDENTITY {
         return Ok(());
@@ -172,7 +171,7 @@ fn transform(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpEr
     Ok(())
 }
 
-/// Sets the marks of `faces` to true. Extends `marks` if it has no entry for a face, because the face was added later.
+/// Sets the marks of `faces` to true. Extends `marks` if it has no entries for the newest faces.
 fn mark(marks: &mut Vec<bool>, faces: &[FaceId]) {
     for f in faces {
         marks.resize(marks.len().max(f.index() + 1), false);

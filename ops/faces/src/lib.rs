@@ -28,7 +28,7 @@ pub fn register(registry: Registry) -> Registry {
         .with::<BevelFaces>()
 }
 
-/// Adds a ring of quadrilaterals inside each of `faces` faces to the plan of a mesh, which predicts its counts.
+/// Updates the predicted counts in the plan of a mesh: a ring of quadrilaterals is added inside each of `faces` faces.
 fn plan_rings(plan: &mut MeshPlan, faces: Range) {
     let corners = plan.corners_of(faces);
     plan.grow(corners, corners.by(2), corners);

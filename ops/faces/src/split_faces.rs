@@ -88,8 +88,7 @@ impl SplitFaces {
     }
 }
 
-/// Returns the vertex id with this number. If the number is too large for an id, returns `NONE`, which is not the id of
-/// a vertex.
+/// Returns the vertex id with this number, or `NONE` if the number is too large for an id.
 fn vertex(number: u32) -> VertexId {
     if number == u32::MAX {
         VertexId::NONE

@@ -207,7 +207,7 @@ fn squares_of_opposite_orientation_agree_after_welding() {
         ]
     );
     assert!(welded.get(VERTEX_NORMAL).is_none());
-    // Each edge and each corner has the value that the edge or corner at the same position had before the step.
+    // The step keeps the value of each edge and each corner. Old and new elements are matched by their positions.
     for e in welded.edges() {
         let first = mesh
             .edges()

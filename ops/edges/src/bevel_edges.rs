@@ -16,22 +16,21 @@ use op::{Refusal, readable};
 /// Replaces edges with faces of constant width.
 ///
 /// A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
-/// extends up to the distance `width` from the old edge. An edge that is not selected, but shares an end with a
-/// selected edge, is shortened at this end. If the two edges are neighboring sides of a face, the new end is where the
-/// distance from the selected edge is `width`, but at most four times `width` from the old end. If the two edges are
-/// not neighboring sides of a face, the new end is at the distance `width` from the old end. If two selected edges are
+/// extends up to the distance `width` from the old edge. An edge that is not selected, but ends at a vertex of a
+/// selected edge, is shortened at this vertex. If the two edges are neighboring sides of a face, the distance between
+/// the new end and the selected edge is `width`. However, the edge is shortened by at most four times `width`. If the
+/// two edges are not neighboring sides of a face, the edge is shortened by `width`. If two selected edges are
 /// neighboring sides of a face, a new vertex inside this face replaces the corner between them. If three or more new
-/// vertices replace an old vertex, another new face joins the new vertices. All selected edges are beveled at once, so
-/// a cube that is beveled at all edges keeps all of its symmetries.
+/// vertices replace an old vertex, another new face joins the new vertices. All selected edges are beveled at once. For
+/// example, a cube with 12 selected edges keeps all of its symmetries.
 ///
-/// The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest ids.
-/// Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order of these edges,
-/// then the faces that replace vertices. Edges get new ids.
+/// The vertices at the ends of selected edges are removed, so vertices with higher ids get new ids. New vertices get
+/// the highest ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order
+/// of these edges, then the faces that replace vertices. Edges get new ids.
 ///
-/// The values of a new vertex are interpolated in an old face at the position of the vertex, so textures stay in place.
-/// A new face has the values (material, tags) of one of the old faces beside it. It is not specified which of these
-/// faces is used, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
-/// dropped.
+/// The values of a new vertex are interpolated between corners of an old face, so textures stay in place. A new face
+/// has the values (material, tags) of one of the old faces beside it. It is not specified which of these faces is used,
+/// but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
 /// An edge cannot be beveled if it is on the boundary (reason: `Boundary`), or if one of its ends has only one other
 /// edge and this other edge is not selected (reason: `FewEdges`). If the bevels at the two ends of any edge would
@@ -42,12 +41,12 @@ use op::{Refusal, readable};
 pub struct BevelEdges {
     /// The edges to bevel.
     pub edges: EdgeSelection,
-    /// The distance, in scene units, from the beveled edge to each of the two new edges that replace it, one in each of
-    /// the faces beside the beveled edge. Either `width` or `fraction` must be given.
+    /// The distance of each new edge from the old edge, in scene units. Two new edges replace the old edge: one in each
+    /// of the faces beside it. Either `width` or `fraction` must be given.
     #[serde(default)]
     pub width: Option<PositiveLength>,
-    /// The width, divided by the length of the shortest edge among the selected edges and all edges that share a vertex
-    /// with them. Above 0 and below 1.
+    /// The width as a fraction of a length: the length of the shortest edge that is selected or shares a vertex with a
+    /// selected edge. Above 0 and below 1.
     #[serde(default)]
     pub fraction: Option<Fraction>,
     /// What to do when an edge cannot be beveled.

@@ -35,10 +35,10 @@ use goal::Goal;
 ///
 /// With `until: Delaunay` or `until: Valence`, an edge is flipped only if the flip improves the angles of the triangles
 /// (`Delaunay`) or the numbers of edges at the vertices (`Valence`). The step makes several passes over the edges. It
-/// stops after a pass that flips no edge, or after `passes` passes. Flips with `until: Delaunay` or `until: Valence`
-/// neither fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the edge
-/// is left unchanged, and the step does not fail. The report counts the refused flips for each reason. The report also
-/// states the number of passes, and whether the step stopped because of the limit `passes`.
+/// stops after a pass that flips no edge, or after `passes` passes. These flips neither fold the surface nor create
+/// zero-area triangles. If a flip that would improve the mesh is refused, the edge is left unchanged, and the step does
+/// not fail. The report counts the refused flips for each reason. The report also states the number of passes, and
+/// whether the step stopped because of the limit `passes`.
 ///
 /// On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from `edges`.
 /// For example, `Flat(below: 30)` selects only edges at which the surface bends by less than 30 degrees, and

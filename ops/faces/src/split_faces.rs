@@ -65,7 +65,7 @@ impl MeshOperation for SplitFaces {
 }
 
 impl SplitFaces {
-    /// Returns a problem for the first cut that will certainly be refused.
+    /// Returns a problem if a cut will certainly be refused.
     fn problem(&self, plan: &MeshPlan) -> Option<Problem> {
         let mut cuts = self.between.iter();
         let message = if plan.is_triangles() && !self.between.is_empty() {

@@ -30,9 +30,9 @@ use op::{Loss, Operation, ReadingChange, ReadingElements};
 pub struct Load {
     /// The file. A relative path is relative to the folder of the recipe.
     pub path: String,
-    /// The name for objects that have no name in the file. If an `.mws` file contains only one object, this object also
-    /// gets the name, even if it has a name in the file. If omitted, objects without a name get the name of the file
-    /// without its extension.
+    /// The name for objects that have no name in the file. If an `.mws` file contains a single object, the object gets
+    /// this name even if the file already names it. If omitted, objects without a name get the name of the file without
+    /// its extension.
     #[serde(default)]
     pub name: Option<String>,
     /// What to do if the faces do not form a manifold: if more than two faces share an edge, or if several groups of
@@ -237,8 +237,7 @@ fn change(note: &Note) -> ReadingChange {
     }
 }
 
-/// The largest number of joints, and the largest number of morph targets, in the plan of a mesh (the prediction of its
-/// counts and attributes before the run).
+/// The plan of a mesh contains at most this number of joints, and at most this number of morph targets.
 const MAX_PLANNED: u64 = 1 << 12;
 
 /// Returns the plan of a mesh that is read from a file. The plan predicts the counts and attributes of the mesh. `peek`

@@ -40,8 +40,8 @@ pub struct Save {
     #[serde(default)]
     pub quantize: Option<Quantization>,
     /// For a skinned mesh in a `.gltf` or `.glb` file, the largest number of sets of joints for each vertex. A set has
-    /// four joints and their weights, so with 2, for example, up to eight joints move a vertex. If omitted, the limit
-    /// is the number of sets in the file from which the mesh was read, or 1 if this number is not known.
+    /// four joints and their weights. For example, if the limit is 2, up to eight joints move a vertex. If omitted, the
+    /// limit is the number of sets in the file that the mesh was loaded from, or 1 if this number is not known.
     #[serde(default)]
     pub weight_sets: Option<Count<1, 8>>,
     /// For `.csv`, the elements that have a row in the table: vertices, faces or corners. If omitted, vertices.
@@ -118,7 +118,8 @@ impl Operation for Save {
         };
         let written = mesh_io::write(&cx.cancellable_store(), &path, &chosen, &options);
         if written.is_err() {
-            // If the run was canceled, the step fails with `Cancelled` instead of the error of the writer.
+            // If writing failed because the run was canceled, the step returns `Cancelled` instead of the error of the
+            // writer.
             cx.advance("write", 0, 1)?;
         }
         let written = written.map_err(|e| files.output_error(e))?;

@@ -71,9 +71,9 @@ impl Losses {
     }
 }
 
-/// Adds the losses of nodes, cameras, lights, skins and animations, for a format that cannot store nodes. If `all` is
-/// true, all objects are written, and the losses are certain. If `all` is false, only some objects with their nodes are
-/// written, so the losses are only possible.
+/// Adds the losses of nodes, cameras, lights, skins and animations, for a format that cannot store nodes. `all` says
+/// whether all objects are written. If so, the losses are certain. Otherwise, it is uncertain whether the written
+/// objects need these parts of the scene, so the losses are added as possible losses.
 fn graph_losses(plan: &Plan, objects: &[&PlannedObject], all: bool, losses: &mut Losses) {
     let graph = plan.graph();
     let unplaced: u64 = objects.iter().map(|o| o.unplaced_nodes).sum();
@@ -94,7 +94,7 @@ fn graph_losses(plan: &Plan, objects: &[&PlannedObject], all: bool, losses: &mut
     }
 }
 
-/// The format of the output file, and the step with its options.
+/// The step `Save` with its options, and the format of the output file.
 struct Writing<'a> {
     save: &'a Save,
     format: Format,

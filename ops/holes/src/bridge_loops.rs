@@ -24,9 +24,9 @@ use op::prelude::*;
 /// handle. They can also be in two separate parts of the mesh, which then become connected. To bridge holes of two
 /// objects, first use `Join` to make one mesh of the objects.
 ///
-/// Each new face copies the attribute values of the adjacent face at the hole with more edges. If both holes have the
-/// same number of edges, the values come from the adjacent face at the hole of the vertex `first`. A new corner has the
-/// values of an existing corner at the same vertex. Normals are dropped.
+/// Each new face has one edge of the hole that has more edges. If both holes have the same number of edges, this hole
+/// is the one of the vertex `first`. The new face copies the attribute values of the face on the other side of the
+/// edge. A new corner has the values of an existing corner at the same vertex. Normals are dropped.
 ///
 /// The step is refused if one of the given vertices is not on the boundary (reason: `NotBoundary`), or if both are on
 /// the same hole (reason: `WrongPlace`). The step is also refused if a new edge would join two vertices that an edge
@@ -57,8 +57,8 @@ impl MeshOperation for BridgeLoops {
                 "`first` and `second` must be on different holes, but they are the same vertex";
             problems.push(Problem::error(message).at(["second"]));
         }
-        // Let n be the number of edges of the hole with more edges. The band between the holes then has n faces. Every
-        // hole has at least two edges.
+        // Let n be the number of edges of the larger hole. The band between the holes then has n faces. Every hole has
+        // at least two edges.
         let band = Range::between(2, plan.edges.max);
         plan.grow(Range::exactly(0), band, band);
         plan.degrees = plan.degrees.or(Range::between(3, 4));

@@ -64,8 +64,8 @@ impl MeshOperation for Cut {
 }
 
 impl Cut {
-    /// Returns the edges of `edges` that can be cut together. If an edge cannot be cut, the function returns an error
-    /// or, with `on_refusal: Skip`, leaves out the edge and counts it in the report.
+    /// Returns those of the `edges` that can be cut together. If an edge cannot be cut, the function returns an error.
+    /// With `on_refusal: Skip`, it leaves out the edge and counts it in the report instead.
     fn allowed(
         &self,
         mesh: &Mesh,

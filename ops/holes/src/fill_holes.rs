@@ -19,12 +19,12 @@ use op::prelude::*;
 /// `with: Triangles`, the hole gets n - 2 triangles and n - 3 new edges.
 ///
 /// For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500 edges
-/// is filled one triangle at a time. Each triangle cuts off the corner of the remaining hole whose two neighboring
-/// vertices are closest to each other. Straight and reflex corners are cut off last. If such a large hole is far from
-/// convex, the triangles can overlap. In holes of any size, a new edge never joins two vertices that an existing edge
-/// already joins. If no triangulation without such a duplicate edge is found, filling the hole is refused (reason:
-/// `DuplicateEdge`). A hole with only two edges cannot be filled (reason: `WrongPlace`). To close a hole with two
-/// edges, use `Stitch`.
+/// is filled one triangle at a time. Each triangle cuts off a corner of the remaining hole: the corner whose two
+/// neighboring vertices are closest to each other. Straight and reflex corners are cut off last. If such a large hole
+/// is far from convex, the triangles can overlap. In holes of any size, a new edge never joins two vertices that an
+/// existing edge already joins. If the step finds no triangulation without duplicate edges, the hole is not filled
+/// (reason: `DuplicateEdge`). A hole with only two edges cannot be filled (reason: `WrongPlace`). To close a hole with
+/// two edges, use `Stitch`.
 ///
 /// New faces have the values of a face beside the hole. A new corner has the values of an existing corner at the same
 /// vertex. Normals are dropped if a hole was filled.

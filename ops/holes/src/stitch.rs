@@ -19,10 +19,10 @@ use pairs::Pairs;
 /// Joins boundary edges that coincide.
 ///
 /// Two boundary edges coincide if each end of one edge is at most `distance` from the corresponding end of the other
-/// edge. Two edges that coincide only with each other form a pair and are joined. If an edge coincides with several
-/// edges, joining these edges is refused (reason: `NonManifold`). To avoid this refusal, choose a `distance` that is
-/// less than the lengths of the edges. `Weld` merges all vertices that are close together, but `Stitch` merges only the
-/// ends of edges that it joins.
+/// edge. Two edges that coincide only with each other form a pair and are joined. An edge that coincides with several
+/// edges cannot be joined (reason: `NonManifold`). To avoid this, choose a `distance` that is less than the lengths of
+/// the edges. `Weld` merges all vertices that are close together, but `Stitch` merges only the ends of edges that it
+/// joins.
 ///
 /// When two vertices become one, the vertex with the lower id is kept, with its position and values. When two edges
 /// become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so all
@@ -73,8 +73,7 @@ impl MeshOperation for Stitch {
             return Ok(report.note("there are no pairs of coinciding boundary edges to join"));
         }
         let edit = |mesh: &mut Mesh, [h, g]: [HalfEdgeId; 2]| {
-            // Joining the neighboring pairs of a pair can also join this pair, so it is possible that the pair is
-            // already joined.
+            // A pair is possibly already joined, because joining neighboring edges can also join the pair.
             if is_closed(mesh, h) && is_closed(mesh, g) {
                 return Ok(());
             }

@@ -18,9 +18,9 @@ pub enum MeasureOf {
     /// The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided by the area of the vertex
     /// (Meyer, Desbrun, Schröder, Barr, 2003). The angle defect is 360° minus the sum of the corner angles at the
     /// vertex. The curvature is 1 / r² on a sphere of radius r, 0 on a cylinder, and negative at saddles. At a boundary
-    /// vertex, the angle defect is 180° minus the sum of the corner angles, so it measures how much the boundary turns
-    /// there. This turn is divided by the area of the vertex, so the Gaussian curvature of boundary vertices depends on
-    /// the size of the faces.
+    /// vertex, the angle defect is 180° minus the sum of the corner angles. This is the angle by which the boundary
+    /// turns at the vertex. It is divided by the area of the vertex, so the Gaussian curvature of boundary vertices
+    /// depends on the size of the faces.
     GaussianCurvature,
     /// A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner
     /// and Morvan, 2003. On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.
@@ -36,8 +36,8 @@ pub enum MeasureOf {
     /// Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007). The aspect ratio is not defined for
     /// zero-area faces.
     AspectRatio,
-    /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. If the step
-    /// does not name objects with `on`, it measures from all meshes except the other mesh itself.
+    /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. A step without
+    /// `on` measures from all meshes except the other mesh itself.
     Distance {
         /// The name of the object to which distances are measured.
         to: String,
@@ -54,8 +54,8 @@ pub enum MeasureOf {
         /// The vertices from which distances are measured.
         from: VertexSelection,
     },
-    /// The thickness of the solid at each vertex, in scene units. For each face of the vertex, a ray starts at the
-    /// vertex, runs inward at a right angle to the face, and ends where it leaves the solid. The thickness is the
+    /// The thickness of the solid at each vertex, in scene units. For each face at the vertex, a ray starts at the
+    /// vertex and runs inward at a right angle to the face. It ends where it leaves the solid. The thickness is the
     /// length of the shortest ray. If no ray leaves the solid, for example on a flat sheet, the thickness is not
     /// defined.
     Thickness,
@@ -72,8 +72,8 @@ pub enum MeasureOf {
     },
     /// The winding number of another mesh of the scene around each vertex: 1 inside, 0 outside, and numbers between 0
     /// and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
-    /// Jacobson, 2018). The error is usually below 0.001. If the step does not name objects with `on`, it measures at
-    /// the vertices of all meshes except the other mesh itself.
+    /// Jacobson, 2018). The error is usually below 0.001. A step without `on` measures at the vertices of all meshes
+    /// except the other mesh itself.
     Winding {
         /// The name of the object whose winding number is computed.
         of: String,
@@ -196,7 +196,7 @@ impl MeasureOf {
     }
 }
 
-/// Converts quantities to scene units. `values` were computed on a scaled copy of the mesh.
+/// Converts values to scene units. The values were computed on a scaled copy of the mesh.
 ///
 /// # Errors
 ///

@@ -207,7 +207,7 @@ fn squares_of_opposite_orientation_agree_after_welding() {
         ]
     );
     assert!(welded.get(VERTEX_NORMAL).is_none());
-    // The step keeps the value of each edge and each corner. Old and new elements are matched by their positions.
+    // Each edge has the value of the first old edge at its position. Each corner keeps its value.
     for e in welded.edges() {
         let first = mesh
             .edges()

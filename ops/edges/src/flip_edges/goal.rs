@@ -12,8 +12,8 @@
 //! energies of all triangles is the trace of the cotangent Laplacian of the mesh (Pinkall and Polthier, "Computing
 //! Discrete Minimal Surfaces and Their Conjugates", 1993). The hat function of a vertex is 1 at this vertex, 0 at all
 //! other vertices, and linear in each triangle. The trace is the sum of the Dirichlet energies of all hat functions. In
-//! the plane, a flip does not change the Dirichlet energy of linear functions. The change of the Dirichlet energy by a
-//! flip is a quadratic form of rank 1 in the values of the function at the four corners. The sign of this quadratic
+//! the plane, a flip does not change the Dirichlet energy of linear functions. For any values at the four corners, the
+//! change of the Dirichlet energy by a flip is a quadratic form of rank 1 in these values. The sign of this quadratic
 //! form depends on whether the fourth corner of the two triangles is inside the circle through the other three corners
 //! (Rippa, "Minimal Roughness Property of the Delaunay Triangulation", 1990). In the plane, a flip therefore reduces
 //! the energy if and only if the edge does not satisfy the Delaunay condition. Flipping such edges ends with the
@@ -37,8 +37,8 @@ use mesh::{DVec3, EdgeId, Mesh, VertexId};
 /// area of such a triangle is only rounding error.
 const NO_AREA: f64 = 1e-14;
 
-/// The range of squared lengths for which products of four lengths neither underflow nor overflow. The lengths are from
-/// 1e-60 to 1e60 scene units.
+/// The range of the sum of the squared side lengths of a triangle. Inside the range, products of four lengths neither
+/// underflow nor overflow. The longest side is then between about 1e-60 and 1e60 scene units.
 const SIZES: Range<f64> = 1e-120..1e120;
 
 /// Energies whose relative difference is less than this value count as equal. If all four corners lie on a circle, as
@@ -160,9 +160,9 @@ impl Quad {
             .distance_squared(mesh.position(self.b))
     }
 
-    /// Whether the normals of both new triangles point to the same side as the sum of their area vectors, where an area
-    /// vector is a normal multiplied by an area. The sum of the area vectors is the same before and after a flip. In
-    /// the plane, the result is true if and only if the quad is convex.
+    /// The area vector of a triangle is its normal, multiplied by its area. Returns whether the normals of both new
+    /// triangles point to the same side as the sum of the two area vectors. A flip does not change this sum. In the
+    /// plane, the result is true if and only if the quad is convex.
     fn flips_without_fold(&self, mesh: &Mesh) -> bool {
         let [a, b, c, d] = [self.a, self.b, self.c, self.d].map(|v| mesh.position(v));
         let (left, right) = ((c - d).cross(a - d), (d - c).cross(b - c));

@@ -94,7 +94,7 @@ struct ChangedNeighborhood {
     vertices: Vec<VertexId>,
     /// For each vertex, whether it is in `vertices`.
     has_vertex: Vec<bool>,
-    /// For each edge, whether it can be collected: flipping the edge is allowed, and the edge is not collected yet.
+    /// For each edge, whether the edge is allowed to be flipped and is not yet collected.
     is_free: Vec<bool>,
 }
 

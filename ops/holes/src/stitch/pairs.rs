@@ -1,9 +1,8 @@
 //! Finds pairs of boundary edges that coincide.
 //!
-//! Edges are sorted into a grid of cubic cells by their midpoints. If the ends of two edges are close together, the
-//! midpoints of the edges are also close together. An edge is therefore compared only with the edges in its cell and
-//! the 26 neighboring cells. The edges are visited in the order of their cells, so that the neighboring cells are found
-//! without searching.
+//! Edges are sorted into a grid of cubic cells by their midpoints. If two edges coincide, their midpoints are also
+//! close together. An edge is therefore compared only with the edges in its cell and the 26 neighboring cells. The
+//! edges are visited in the order of their cells, so that the neighboring cells are found without searching.
 
 use mesh::{DVec3, HalfEdgeId, Mesh};
 use op::{Context, OpError};
@@ -25,7 +24,7 @@ struct Rim {
     ends: [DVec3; 2],
 }
 
-/// Whether no other boundary edge, one, or several boundary edges coincide with an edge.
+/// The number of other boundary edges that coincide with an edge: none, one or several.
 #[derive(Clone, Copy, PartialEq)]
 enum Matches {
     None,
@@ -42,8 +41,7 @@ impl Pairs {
         cx.advance("find coinciding edges", 0, total)?;
         let mut matches = vec![Matches::None; rims.len()];
         // The cells around an edge form nine rows of three cells. `begins` contains the index in `rims` at which each
-        // row begins. The indices in `begins` never decrease, because the edges are visited in the order of their
-        // cells.
+        // row begins. The edges are visited in the order of their cells, so the indices in `begins` never decrease.
         let mut begins = [0; 9];
         for (i, rim) in rims.iter().enumerate() {
             matches[rim.number] = matches_of(&rims, rim, &mut begins, distance);
@@ -79,8 +77,8 @@ fn sorted_rims(
     let midpoints = || outer.iter().map(|h| midpoint(ends(h)));
     let least = midpoints().reduce(DVec3::min).unwrap_or_default();
     let most = midpoints().reduce(DVec3::max).unwrap_or_default();
-    // The side of a cell is twice the distance, which leaves a margin for rounding. The argument of `max` limits the
-    // number of cells along an axis to about 1e9, even if the distance is tiny.
+    // The side of a cell is twice `distance`, although `distance` would be enough without rounding. The argument of
+    // `max` limits the number of cells along an axis to about 1e9, even if the distance is tiny.
     let size = (2.0 * distance).max(1e-9 * (most - least).max_element());
     let size = if size > 0.0 { size } else { 1.0 };
     let rim = |(number, h)| Rim {
@@ -108,8 +106,7 @@ fn sorted_rims(
     }
 }
 
-/// Returns the indices of the cell that contains a point. In the coordinates of `place`, every cell has the side
-/// length 1.
+/// Returns the indices of the cell that contains the point `place`. The unit of `place` is the side length of a cell.
 #[expect(clippy::cast_possible_truncation, reason = "at most 1e12")]
 fn cell(place: DVec3) -> [i64; 3] {
     // The limit of 1e12 applies only if the extent of the mesh overflows. The coordinate `x` is then NaN, and `min`
@@ -117,8 +114,8 @@ fn cell(place: DVec3) -> [i64; 3] {
     place.to_array().map(|x| x.floor().min(1e12) as i64)
 }
 
-/// Returns the index of the boundary half-edge that coincides with `rim`, if there is exactly one. For each of the nine
-/// rows of cells around the previous edge, `begins` contains the index in `rims` at which the row begins.
+/// Finds the boundary half-edges that coincide with `rim`. `begins` contains nine indices: the positions in `rims` at
+/// which the nine rows of cells around the previous edge begin. They are updated for the edge `rim`.
 fn matches_of(rims: &[Rim], rim: &Rim, begins: &mut [usize; 9], distance: f64) -> Matches {
     let mut matches = Matches::None;
     let [x, y, z] = rim.cell;

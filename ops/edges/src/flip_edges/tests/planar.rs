@@ -45,8 +45,8 @@ fn corners(mesh: &Mesh, points: &[Point], f: FaceId) -> [Point; 3] {
 }
 
 /// Triangulates the square by inserting the points one after the other. Returns the mesh and the points of its
-/// vertices: the corners of the square, and then the inserted points without duplicates. A point inside or on the
-/// border of a triangle cuts it into three triangles, so a point on an edge gives a zero-area triangle.
+/// vertices: the corners of the square, and then the inserted points without duplicates. Each point cuts the triangle
+/// that contains the point into three triangles. A point on an edge therefore gives a zero-area triangle.
 fn cut_square(inside: &[Point]) -> (Vec<Point>, Mesh) {
     let mut points = vec![[0, 0], [SIDE, 0], [SIDE, SIDE], [0, SIDE]];
     let mut triangles = vec![[0, 1, 2], [0, 2, 3]];
@@ -143,7 +143,7 @@ fn the_diagonals_of_rotated_squares_are_not_flipped() {
 
 #[test]
 fn an_edge_through_a_vertex_is_flipped_to_end_at_the_vertex() {
-    // Vertex 2 is on the edge from vertex 0 to vertex 1, so the triangle of these vertices has no area.
+    // Vertex 2 is on the edge from vertex 0 to vertex 1, so the triangle with these three vertices has no area.
     let points = [[0, 0], [4, 0], [2, 0], [2, 3], [2, -3]];
     let mesh = mesh_of(&points, &[[0, 1, 2], [1, 3, 2], [3, 0, 2], [1, 0, 4]]);
     let e = EdgeId::new(0);

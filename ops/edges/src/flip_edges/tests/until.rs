@@ -91,8 +91,8 @@ fn remaining_improvements(mesh: &Mesh, until: Until) -> Vec<EdgeId> {
     mesh.edges().filter(improves).collect()
 }
 
-/// Generates triangle meshes with some flipped edges and vertices at small integer coordinates, so that many vertices
-/// coincide or are collinear.
+/// Generates triangle meshes. Up to 20 vertices get small integer coordinates, so that many vertices coincide or are
+/// collinear. Then some edges are flipped.
 fn surfaces() -> impl Strategy<Value = Mesh> {
     let shapes = [
         shapes::fans(&shapes::torus(5, 4, 2.0, 1.0)),

@@ -3,8 +3,8 @@
 /// Implements `Deserialize` and `Serialize` for a type that derives them with the attribute
 /// `#[serde(remote = "Self")]`.
 ///
-/// The code that Serde derives is generic over the format, so it would be compiled again in every crate that has a step
-/// with a field of this type. This macro writes implementations that pass trait objects to the derived code. The
+/// The code that Serde derives is generic over the format. Every crate whose steps have a field of this type would
+/// therefore compile the code again. This macro writes implementations that pass trait objects to the derived code. The
 /// derived code is therefore compiled only once, in this crate.
 macro_rules! compiled_once {
     ($name:ident) => {

@@ -13,11 +13,11 @@ use crate::{CancellableStore, Files, OpError};
 pub struct Context<'a> {
     progress: &'a dyn Progress,
     files: &'a Files,
-    /// The names of the objects in the step's `on:`. `None` if the step has no `on:`. Such a step acts on all objects
+    /// The names of the objects in the step's `on:`. `None` if the step has no `on:`. The step then acts on all objects
     /// that its operation supports.
     pub on: Option<&'a [String]>,
-    /// The label of the step in the recipe. The selection `Random` is seeded with this label and with its own `seed`,
-    /// so two steps with the same seed select different elements. Random positions and numbers, such as those of
+    /// The label of the step in the recipe. The selection `Random` is seeded with this label and with its own `seed`.
+    /// Two steps with the same seed therefore select different elements. Random positions and numbers, such as those of
     /// `Scatter` and `Displace`, depend only on their `seed`.
     pub stream: &'a str,
     /// The memory budget of meshes, in bytes.
@@ -138,7 +138,7 @@ impl<'a> Context<'a> {
         CancellableStore::new(&*self.files.store, self.progress)
     }
 
-    /// Returns the files of the run, which determine where files are read and written.
+    /// Returns the object that determines where files are read and written.
     pub fn files(&self) -> &Files {
         self.files
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Context, OpError, Problem, Range, Report};
 
-/// What to do when an edit of a selected element is refused, that is, when the edit is not possible at this element.
+/// What to do when an edit is refused, that is, when the edit is not possible at a selected element.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum OnRefusal {
@@ -58,8 +58,8 @@ pub enum Seams {
     /// Refuse the edit.
     #[default]
     Refuse,
-    /// Edit anyway. For each corner at the edge, the values of one side of the seam are kept, and the values of the
-    /// other side are lost.
+    /// Edit anyway. At each end of the seam, the corner values of one side are kept, and the corner values of the other
+    /// side are lost.
     Drop,
 }
 

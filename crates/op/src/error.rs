@@ -34,19 +34,20 @@ pub enum Refusal {
     RepeatedVertex,
     /// The edit would leave no faces at the place of the edge, or only two faces that lie back to back.
     Vanishes,
-    /// The two ends of an edge cannot be merged because they have a common neighbor that is not a corner of a triangle
-    /// at the edge.
+    /// The two ends of an edge cannot be merged because of a common neighbor vertex: the neighbor is not a corner of a
+    /// triangle at the edge.
     Link,
     /// The two ends of an edge cannot be merged because both lie on the boundary, but the edge does not.
     JoinsBoundaries,
     /// Corner attributes differ between the two sides of an edge, and the edit would lose this difference.
     Seam,
-    /// A position on an edge is not strictly between the ends of the edge, or two bevels of an edge would overlap.
+    /// A position on an edge is not strictly between the ends of the edge, or the bevels at the two ends of an edge
+    /// would overlap.
     OutsideEdge,
     /// A coordinate or length is not finite, or is outside its range.
     BadNumber,
-    /// The edit would separate the faces around a vertex into several fans, which are groups of faces that are
-    /// connected by edges at this vertex.
+    /// The edit would separate the faces around a vertex into several fans. A fan is a group of faces that are
+    /// connected by edges at the vertex.
     Pinch,
     /// The given faces are only a part of their connected component, but the edit needs all faces of the component.
     PartOfComponent,

@@ -1,5 +1,5 @@
-//! The traits that operations implement, and everything that operations share: the registry, the context in which an
-//! operation runs, plans, reports, errors, selections and parameter types. This crate contains no operation.
+//! The traits that operations implement, and the code that operations share: the registry, the context of a running
+//! operation, plans, reports, errors, selections and parameter types. This crate contains no operation.
 //!
 //! An operation is a struct whose fields are its parameters. Most operations change one mesh and implement
 //! [`MeshOperation`]. For these operations, this crate chooses the meshes that a step changes (`on:`), reports lost

@@ -229,8 +229,8 @@ fn apply_to<T: MeshOperation>(
     mesh.begin();
     let done = operation.apply(mesh, cx);
     cx.clear_object();
-    // If an operation assigns a new mesh to `*mesh` instead of calling `Mesh::replace`, the record of the changes is
-    // lost, and the changes cannot be undone.
+    // If an operation assigns a new mesh to `*mesh`, the record of the changes is lost, and the changes cannot be
+    // undone. Operations must call `Mesh::replace` instead.
     let is_recording = mesh.is_recording();
     let mut report = match done {
         Ok(report) => report,

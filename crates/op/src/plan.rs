@@ -50,8 +50,8 @@ pub struct PlannedObject {
     pub name: String,
     /// The geometry.
     pub geometry: PlannedGeometry,
-    /// The number of root nodes that reference the object but are missing from the graph of the plan, because their
-    /// transforms are not yet known.
+    /// The number of root nodes with this object that are missing from the graph of the plan. Their transforms are not
+    /// yet known.
     pub unplaced_nodes: u64,
 }
 

@@ -133,8 +133,8 @@ impl Loss {
         format!("{} may lose {}: {}", self.owner(), self.what, self.reason)
     }
 
-    /// Returns the text that names the owner of the lost data in messages: the name of the object in quotation marks,
-    /// or `the scene`.
+    /// Returns the words for the owner of the lost data in messages: the name of the object in quotation marks, or
+    /// `the scene`.
     fn owner(&self) -> String {
         match self.object.as_str() {
             "" => "the scene".to_owned(),

@@ -100,7 +100,7 @@ impl<'a> Source<'a> {
         problems
     }
 
-    /// Adds the object at the end of a scene. `make` creates the mesh, and is called only if there are no problems, no
+    /// Adds the object at the end of a scene. `make` creates the mesh. It is called only if there are no problems, no
     /// other object has the name, and the memory is sufficient.
     ///
     /// # Errors

@@ -26,19 +26,18 @@ use op::prelude::*;
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is cut
 /// along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the relative
 /// difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero area or is
-/// turned over: clockwise where the face is counter-clockwise. If exactly one diagonal is bad, the good diagonal is
-/// used, regardless of lengths and ids. A quadrilateral with a reflex corner (an angle above 180 degrees) is therefore
-/// cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by a diagonal of another
-/// face. If both diagonals of a quadrilateral are bad or both are good, the step avoids duplicates: it replaces a
-/// duplicate with the second diagonal, unless this diagonal is also a duplicate. The report counts the duplicates that
-/// remain.
+/// turned over. A triangle is turned over if it is clockwise where the face is counter-clockwise. If exactly one
+/// diagonal is bad, the good diagonal is used, regardless of lengths and ids. A quadrilateral with a reflex corner (an
+/// angle above 180 degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by
+/// an edge or by a diagonal of another face. A duplicate is replaced with the second diagonal of its quadrilateral,
+/// unless the second diagonal is worse or also a duplicate. The report counts the duplicates that remain.
 ///
 /// A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or into
 /// monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
 /// constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces with
-/// crossing sides, faces with more than 4096 corners and with overlapping sides, and faces with more than ten million
-/// corners. Each of these faces becomes a triangle fan around its vertex with the lowest id. The report counts these
-/// faces.
+/// crossing sides, and faces with more than ten million corners. Faces with more than 4096 corners also cannot be
+/// triangulated in this way if their sides overlap. Each of these faces becomes a triangle fan around its vertex with
+/// the lowest id. The report counts these faces.
 ///
 /// In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids. The
 /// triangles have the values of the face. Vertices and edges keep their ids. Each corner of a triangle has the values

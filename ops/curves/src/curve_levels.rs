@@ -19,9 +19,9 @@ use scene::Geometry;
 /// Replaces each curve with polylines that show the levels of de Casteljau's algorithm.
 ///
 /// A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon with
-/// n points. The points of each later polyline divide the segments of the previous polyline in the ratio t : 1 - t, so
-/// each polyline has one point fewer than the previous polyline. The last polyline has a single point, the point of the
-/// curve at `t`.
+/// n points. The points of each later polyline divide the segments of the previous polyline in the ratio t : 1 - t.
+/// Each polyline therefore has one point fewer than the previous polyline. The last polyline has a single point, the
+/// point of the curve at `t`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveLevels {
@@ -29,7 +29,8 @@ pub struct CurveLevels {
     pub t: ClosedFraction,
 }
 
-/// Returns the size in bytes of all levels of a curve with n control points: n (n + 1) / 2 points of 24 bytes each.
+/// Returns the size of all levels of a curve with n control points, in bytes. The levels have n (n + 1) / 2 points of
+/// 24 bytes each.
 fn bytes(n: u64) -> u64 {
     n.saturating_mul(n.saturating_add(1)) / 2 * 24
 }

@@ -19,10 +19,10 @@ use scene::Geometry;
 /// Moves one control point of Bezier patches.
 ///
 /// The step acts on the objects that its parameter `on` lists. Without `on`, the step acts on all objects that consist
-/// of Bezier patches. Control points of the same object that are at the same position move together, so that patches
+/// of Bezier patches. If other control points of the object are at the same position, they also move, so that patches
 /// with a common side stay joined. The point of a patch at the parameters (u, v) moves by B(u) C(v) d. Here, d is the
-/// displacement of the control point, and B and C are the Bernstein polynomials of its column and its row. The report
-/// counts the changed objects.
+/// displacement of the control point, B is the Bernstein polynomial of its column, and C is the Bernstein polynomial of
+/// its row. The report counts the changed objects.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MovePatchPoint {

@@ -24,8 +24,8 @@ use scene::Geometry;
 /// The step acts on the objects that its parameter `on` lists. Without `on`, the step acts on all objects that consist
 /// of Bezier patches. Each object becomes one mesh of the same name. Every patch is divided into `segments` x
 /// `segments` cells. Vertices, edges and faces of earlier patches have lower ids. Different patches share no vertices.
-/// If two patches have the same control points on a common side, their vertices on this side have bitwise equal
-/// positions, so that `Weld(distance: 0)` joins the patches. If all points of a side coincide, as at the pole of a
+/// If two patches have the same control points on a common side, their vertices on this side have exactly equal
+/// positions. `Weld(distance: 0)` then joins the patches. If all points of a side coincide, as at the pole of a
 /// teapot's lid, the side becomes one vertex. Patches without area give no faces. The report counts the patches without
 /// area. The mesh has UVs only with `uvs: true`, and normals only with `normals: true`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

@@ -18,8 +18,8 @@ use crate::moved::{Stretch, moved, next};
 ///
 /// The parameters `from` and `to` are coordinates along the axis. Vertices at or below `from` do not move. Between
 /// `from` and `to`, the axis becomes an arc of the same length. The direction of the arc turns by `angle` from one end
-/// to the other. The part above `to` moves rigidly with the end of the arc. Vertices between the axis and the center of
-/// the circle move closer together, and vertices on the other side of the axis move apart. The distance between the
+/// to the other. The part above `to` moves rigidly with the end of the arc. On the side of the axis towards the center
+/// of the circle, vertices move closer together. On the other side, vertices move apart. The distance between the
 /// center of the circle and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh that lie
 /// beyond the center of the circle, as seen from the axis, turn inside out. Source: Barr, "Global and Local
 /// Deformations of Solid Primitives", 1984.

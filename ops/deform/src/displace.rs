@@ -18,9 +18,9 @@ use crate::moved::moved;
 /// Moves vertices along their normals, by amounts that vary over the surface.
 ///
 /// Each vertex moves along its normal by `distance` times the value that `by` gives for this vertex. The normal of a
-/// vertex is the mean of the normals of its faces, weighted by the areas of the faces. Vertices without a normal, such
-/// as isolated vertices, do not move. The report counts these vertices. Normals and tangents are dropped. Faces,
-/// element ids and other attributes do not change.
+/// vertex is the area-weighted mean of its face normals. Vertices without a normal, such as isolated vertices, do not
+/// move. The report counts these vertices. Normals and tangents are dropped. Faces, element ids and other attributes do
+/// not change.
 ///
 /// The displaced mesh is identical on all machines, because the computation uses only functions that do not depend on
 /// the machine.
@@ -309,8 +309,8 @@ mod tests {
         ));
     }
 
-    /// Returns a plane grid whose texture coordinates are its positions, and the folder of an image whose left half is
-    /// black and whose right half is white.
+    /// Returns a plane grid and the folder of an image. The texture coordinates of the grid are its positions. The left
+    /// half of the image is black, and the right half is white.
     fn grid_and_image() -> (Mesh, tempfile::TempDir) {
         let mut grid = shapes::grid(4, 4);
         let [min, max] = geometry::bounds(&grid).unwrap();

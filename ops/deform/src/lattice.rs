@@ -18,7 +18,7 @@ use crate::moved::moved;
 ///
 /// The box contains a regular grid of control points. `size` gives the number of control points along x, y and z.
 /// `moves` moves some of the control points, and the space in the box is deformed smoothly. The new position of a point
-/// in the box is the weighted sum of the new positions of all control points, with Bernstein polynomials as weights
+/// in the box is a weighted sum of the new positions of all control points. The weights are Bernstein polynomials
 /// (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the same
 /// offset, the whole box moves by this offset. If only one control point moves, the points in the box move in the same
 /// direction, but less far. However, a control point at a corner of the box moves this corner exactly as far as itself.

@@ -24,9 +24,8 @@ use crate::moved::moved;
 /// selected vertices and falls smoothly to 0 at the distance r. Distances are measured along straight lines, not along
 /// the surface.
 ///
-/// With `by: Distance(..)`, each vertex moves along its own normal, which is the mean of the normals of its faces,
-/// weighted by the areas of the faces. Vertices without a normal, such as isolated vertices, do not move. The report
-/// counts these vertices.
+/// With `by: Distance(..)`, each vertex moves along its own normal: the area-weighted mean of its face normals.
+/// Vertices without a normal, such as isolated vertices, do not move. The report counts these vertices.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveVertices {
@@ -203,8 +202,7 @@ mod tests {
             applied_as_planned(&parse(&text), &half)
         };
         // The selected vertex is the center of the scaling and does not move. The scale factor is at most 3. A vertex
-        // at the distance d from the selected vertex therefore moves by at most 2 d, and only vertices with d < 0.5
-        // move.
+        // at the distance d from the selected vertex therefore moves by at most 2 d. Only vertices with d < 0.5 move.
         let after = with("Scale((3, 3, 3))");
         let moved = half.positions().iter().zip(after.positions());
         assert!(

@@ -51,8 +51,7 @@ pub enum ProjectAlong {
     #[default]
     Nearest,
     /// Moves to the nearest point at which the surface meets the line through the vertex along its normal. The point
-    /// can lie on either side of the vertex. The normal of a vertex is the mean of the normals of its faces, weighted
-    /// by their areas.
+    /// can lie on either side of the vertex. The normal of a vertex is the area-weighted mean of its face normals.
     Normal,
     /// Moves to the first point of the surface in this direction.
     Direction(Direction),

@@ -31,10 +31,10 @@ use op::prelude::*;
 ///   another edge.
 /// - `SameOpposite`: the two triangles beside the edge share another edge.
 ///
-/// Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a seam
-/// (an edge whose corner values, such as UVs, differ between its two sides), the corner values of each side are
-/// interpolated separately. When two edges become one, the remaining edge gets the larger of their crease values
-/// (sharpness for subdivision) and the tags of both edges. Normals are dropped.
+/// Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. A seam is
+/// an edge whose corner values, such as UVs, differ between its two sides. At a seam, the corner values of each side
+/// are interpolated separately. When two edges become one, the remaining edge gets the larger crease value (sharpness
+/// for subdivision) and the tags of both edges. Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CollapseEdges {

@@ -16,10 +16,9 @@ use op::prelude::*;
 /// with two edges, use `DissolveVertices(vertices: Valence(2))` in a later step. The remaining elements keep their
 /// order and their values but get new ids.
 ///
-/// An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its ends
-/// has only two edges. An edge also cannot be removed if its two faces have a common vertex that is not an end of the
-/// edge. A seam (an edge whose corner values, such as UVs, differ between its two sides) is removed only if `seams` is
-/// `Drop`.
+/// An edge cannot be removed if it is on the boundary or if the same face is on both of its sides. It also cannot be
+/// removed if one of its ends has only two edges, or if its two faces have a common vertex that is not an end of the
+/// edge. A seam is removed only if `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveEdges {

@@ -22,26 +22,26 @@ use goal::Goal;
 /// Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 ///
 /// Edges are flipped in order of their ids. Each flip is checked against the mesh that the earlier flips have produced.
-/// A flip is refused if the edge is on the boundary, if the same face is on both sides of the edge, or if an end of the
-/// edge has only two edges. A flip is also refused if the two corners opposite to the edge are the same vertex or are
-/// already joined by an edge. If the edge is a seam (an edge whose corner values, such as UVs, differ between its two
-/// sides), the flip is refused unless `seams` is `Drop`. All elements keep their ids, and no vertex moves. Vertices,
-/// edges and faces keep their values. Each of the two faces gets one new corner. The new corner of a face gets its
-/// values from the corner of the other face at the same vertex. All other corners keep their values.
+/// A flip is refused if the edge is on the boundary, if the same face is on both of its sides, or if one of its ends
+/// has only two edges. A flip is also refused if the new edge would join a vertex to itself, or would join two vertices
+/// that an edge already joins. The flip of a seam is refused unless `seams` is `Drop`. All elements keep their ids, and
+/// no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new corner. The new
+/// corner of a face gets its values from the corner of the other face at the same vertex. All other corners keep their
+/// values.
 ///
 /// If a face beside the edge has more than three corners, the edge turns inside the polygon that the two faces form
-/// together: each end of the edge moves to the next corner of this polygon, counter-clockwise. With `until: Delaunay`
+/// together. Each end of the edge moves to the next corner of this polygon, counter-clockwise. With `until: Delaunay`
 /// or `until: Valence`, only edges between two triangles are flipped.
 ///
 /// With `until: Delaunay` or `until: Valence`, an edge is flipped only if the flip improves the angles of the triangles
 /// (`Delaunay`) or the numbers of edges at the vertices (`Valence`). The step makes several passes over the edges. It
-/// stops after a pass that flips no edge, or after `passes` passes. These flips neither fold the surface nor create
+/// stops after a pass that flips no edge, or after `passes` passes. The flips neither fold the surface nor create
 /// zero-area triangles. If a flip that would improve the mesh is refused, the edge is left unchanged, and the step does
 /// not fail. The report counts the refused flips for each reason. The report also states the number of passes, and
 /// whether the step stopped because of the limit `passes`.
 ///
 /// On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from `edges`.
-/// For example, `Flat(below: 30)` selects only edges at which the surface bends by less than 30 degrees, and
+/// For example, `Flat(below: 30)` selects only edges at which the surface bends by less than 30 degrees.
 /// `Not(Tagged("keep"))` selects only edges without the tag "keep".
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

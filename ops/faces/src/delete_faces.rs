@@ -18,9 +18,9 @@ use op::prelude::*;
 /// kept. The remaining elements keep their order and their values but get new ids. To delete edges or vertices together
 /// with their faces, select the faces with `FacesBeside(edges)` or `FacesAround(vertices)`.
 ///
-/// The removal is refused if the remaining faces around a vertex would form several fans (groups of faces that are
-/// connected across edges) that meet only at that vertex. With `on_refusal: Skip`, the step then tries to remove the
-/// faces one by one, in order of their ids. The step repeats these attempts until no more selected faces can be
+/// The removal is refused if the remaining faces around a vertex would form several fans that meet only at this vertex.
+/// A fan is a group of faces that are connected across edges. With `on_refusal: Skip`, the step then tries to remove
+/// the faces one by one, in order of their ids. The step repeats these attempts until no more selected faces can be
 /// removed. Selected faces that still cannot be removed are kept, and the report counts them as refused.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

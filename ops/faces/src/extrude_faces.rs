@@ -40,9 +40,9 @@ use region::Region;
 ///
 /// A side face has the attribute values (material, tags) of the adjacent moved face. The corners of a side face have
 /// the values of the corners of the moved face, so textures have no seam between the two faces. However, a side face
-/// shows only one line of the texture: the line along the edge of the moved face, stretched over the whole side face.
-/// The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges between the old and
-/// the new rim have zero values (no crease, no tags). Normals are dropped.
+/// shows only one line of the texture: the line along the edge of the moved face. This line is stretched over the whole
+/// side face. The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges between
+/// the old and the new rim have zero values (no crease, no tags). Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {

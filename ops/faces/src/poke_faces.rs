@@ -15,9 +15,9 @@ use op::prelude::*;
 /// A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
 /// triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in order
 /// of the poked faces. The new vertex is at the mean of the positions of the corners, moved along the normal of the
-/// face by `distance`. At the new vertex, interpolated attributes of vertices and corners, such as UVs, get the mean of
-/// their values at the corners of the face. The triangles have the values of their face, and the new edges have zero
-/// values (no crease, no tags). If `distance` is not 0, normals are dropped.
+/// face by `distance`. At the new vertex, interpolated attributes, such as UVs, get the mean of their values at the
+/// corners of the face. The triangles have the values of their face, and the new edges have zero values (no crease, no
+/// tags). If `distance` is not 0, normals are dropped.
 ///
 /// A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or if
 /// the mesh already has the largest supported number of elements.

@@ -35,15 +35,14 @@ pub struct Load {
     /// its extension.
     #[serde(default)]
     pub name: Option<String>,
-    /// What to do if the faces do not form a manifold: if more than two faces share an edge, or if several groups of
-    /// faces meet only at a vertex, like the tips of two cones.
+    /// What to do if the faces do not form a manifold. This is the case if more than two faces share an edge, or if
+    /// several groups of faces meet only at a vertex, like the tips of two cones.
     #[serde(default)]
     pub non_manifold: NonManifold,
     /// What to do if neighboring faces have opposite orientations.
     #[serde(default)]
     pub orientation: Orientation,
-    /// What to do with a face that has the same vertices as an earlier face, in the same or in the opposite order
-    /// around the face.
+    /// What to do with a face that has the same vertices as an earlier face, in the same or in the opposite order.
     #[serde(default)]
     pub duplicates: CleanupPolicy,
     /// What to do with zero-area faces.
@@ -183,8 +182,8 @@ impl Load {
     }
 }
 
-/// Returns the possible loss of faces that may contain a vertex twice. Returns `None` if there are no such faces, or if
-/// `peek` did not examine the faces.
+/// Returns the possible loss of faces that may contain a vertex twice. Returns `None` if there are no faces of this
+/// kind, or if `peek` did not examine the faces.
 fn dropped_faces(peek: &Peek, path: &Path) -> Option<Loss> {
     let count = |object: &PeekObject| match object.geometry {
         PeekGeometry::Mesh(mesh) if mesh.keeps_vertices || mesh.simple_faces > 0 => {

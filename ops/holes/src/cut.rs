@@ -20,10 +20,10 @@ use op::prelude::*;
 /// of vertices and edges have the values of the originals. Corners keep their values. `Stitch` is the inverse
 /// operation: it joins the two sides of a cut again.
 ///
-/// An edge on the boundary cannot be cut (reason: `Boundary`). An edge also cannot be cut if neither of its ends is on
-/// the boundary or on another edge to cut (reason: `DuplicateEdge`). The two sides of such a cut would still join the
-/// same two vertices, so the mesh would not open. All edges are cut at once, so a longer path inside the mesh can be
-/// cut.
+/// An edge on the boundary cannot be cut (reason: `Boundary`). An edge also cannot be cut if it touches neither the
+/// boundary nor another edge to cut (reason: `DuplicateEdge`). Both sides of the cut would still join the same two
+/// vertices, so the mesh would not open. However, a path of several edges inside the mesh can be cut, because all edges
+/// are cut at once.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cut {

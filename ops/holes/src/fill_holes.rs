@@ -20,8 +20,8 @@ use op::prelude::*;
 ///
 /// For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500 edges
 /// is filled one triangle at a time. Each triangle cuts off a corner of the remaining hole: the corner whose two
-/// neighboring vertices are closest to each other. Straight and reflex corners are cut off last. If such a large hole
-/// is far from convex, the triangles can overlap. In holes of any size, a new edge never joins two vertices that an
+/// neighboring vertices are closest to each other. Straight and reflex corners are cut off last. If the large hole is
+/// far from convex, the triangles can overlap. In holes of any size, a new edge never joins two vertices that an
 /// existing edge already joins. If the step finds no triangulation without duplicate edges, the hole is not filled
 /// (reason: `DuplicateEdge`). A hole with only two edges cannot be filled (reason: `WrongPlace`). To close a hole with
 /// two edges, use `Stitch`.

@@ -12,15 +12,15 @@ use op::{Refusal, named_object};
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum MeasureOf {
-    /// The mean curvature at each vertex, in 1 / scene unit: 1 / r on a sphere of radius r, 1 / (2 r) on a cylinder,
-    /// and negative where the surface is concave (Cohen-Steiner, Morvan, 2003).
+    /// The mean curvature at each vertex, in 1 / scene unit (Cohen-Steiner, Morvan, 2003). It is 1 / r on a sphere of
+    /// radius r, 1 / (2 r) on a cylinder, and negative where the surface is concave.
     MeanCurvature,
-    /// The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided by the area of the vertex
-    /// (Meyer, Desbrun, Schröder, Barr, 2003). The angle defect is 360° minus the sum of the corner angles at the
-    /// vertex. The curvature is 1 / r² on a sphere of radius r, 0 on a cylinder, and negative at saddles. At a boundary
-    /// vertex, the angle defect is 180° minus the sum of the corner angles. This is the angle by which the boundary
-    /// turns at the vertex. It is divided by the area of the vertex, so the Gaussian curvature of boundary vertices
-    /// depends on the size of the faces.
+    /// The Gaussian curvature at each vertex, in 1 / scene unit² (Meyer, Desbrun, Schröder, Barr, 2003). It is the
+    /// angle defect divided by the area of the vertex. The angle defect is 360° minus the sum of the corner angles at
+    /// the vertex. The curvature is 1 / r² on a sphere of radius r, 0 on a cylinder, and negative at saddles. At a
+    /// boundary vertex, the angle defect is 180° minus the sum of the corner angles. This is the angle by which the
+    /// boundary turns at the vertex. It is divided by the area of the vertex, so the Gaussian curvature of boundary
+    /// vertices depends on the size of the faces.
     GaussianCurvature,
     /// A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner
     /// and Morvan, 2003. On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.
@@ -32,8 +32,8 @@ pub enum MeasureOf {
     VertexArea,
     /// The smallest angle of each face, in degrees.
     MinAngle,
-    /// The aspect ratio of each face: 1 for regular polygons, and more than 1 for all other polygons (Stimpson, Ernst,
-    /// Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007). The aspect ratio is not defined for
+    /// The aspect ratio of each face (Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library",
+    /// 2007). It is 1 for regular polygons, and more than 1 for all other polygons. The aspect ratio is not defined for
     /// zero-area faces.
     AspectRatio,
     /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. A step without
@@ -46,10 +46,10 @@ pub enum MeasureOf {
         #[serde(default)]
         signed: bool,
     },
-    /// The distance along the surface from each vertex to the nearest selected vertex, in scene units, by the heat
-    /// method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020). On fine meshes of smooth
-    /// surfaces, the mean error is below 1 % of the largest distance. If no path of edges joins a vertex to a selected
-    /// vertex, the distance of this vertex is not defined.
+    /// The distance along the surface from each vertex to the nearest selected vertex, in scene units. It is computed
+    /// by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020). On fine meshes
+    /// of smooth surfaces, the mean error is below 1 % of the largest distance. If no path of edges joins a vertex to a
+    /// selected vertex, the distance of this vertex is not defined.
     Geodesic {
         /// The vertices from which distances are measured.
         from: VertexSelection,
@@ -70,9 +70,9 @@ pub enum MeasureOf {
         #[serde(default)]
         seed: u64,
     },
-    /// The winding number of another mesh of the scene around each vertex: 1 inside, 0 outside, and numbers between 0
-    /// and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
-    /// Jacobson, 2018). The error is usually below 0.001. A step without `on` measures at the vertices of all meshes
+    /// The winding number of another mesh of the scene around each vertex (Jacobson, Kavan, Sorkine-Hornung, 2013;
+    /// Barill, Dickson, Schmidt, Levin, Jacobson, 2018). It is 1 inside, 0 outside, and between 0 and 1 near gaps of
+    /// the other mesh. The error is usually below 0.001. A step without `on` measures at the vertices of all meshes
     /// except the other mesh itself.
     Winding {
         /// The name of the object whose winding number is computed.

@@ -79,8 +79,8 @@ selection! {
 
 impl EdgeSelection {
     /// Converts the parameter `at` of a recipe to a position on the edge `e`. The position is 0 at the origin of the
-    /// first half-edge of `e` and 1 at the other end. If the selection is `Between(v, w)`, `at` is 0 at v and 1 at w.
-    /// For every other selection, `at` is 0 at the end of the edge with the lower id. If the edge does not exist,
+    /// first half-edge of `e` and 1 at the other end. With the selection `Between(v, w)`, `at` is 0 at v and 1 at w.
+    /// With every other selection, `at` is 0 at the end whose vertex has the lower id. If the edge does not exist,
     /// returns `at` unchanged, because the edit will refuse the edge later.
     pub fn place_on(&self, mesh: &Mesh, e: EdgeId, at: f64) -> f64 {
         if !mesh.has_edge(e) {

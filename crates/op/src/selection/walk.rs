@@ -59,8 +59,7 @@ fn follow(
 }
 
 /// Returns the edges of the shortest path between two vertices, starting with the edge at `to`. If several shortest
-/// paths lead to a vertex, the vertices directly before it are compared, and the path through the one with the lowest
-/// id is chosen.
+/// paths lead to a vertex, its predecessor with the lowest id is chosen.
 ///
 /// E. W. Dijkstra, "A note on two problems in connexion with graphs", 1959.
 ///

@@ -10,7 +10,7 @@ fn hill(height: impl Fn(usize, usize) -> f64) -> Patch {
     Patch::new([0, 1, 2, 3].map(|r| [0, 1, 2, 3].map(|c| point(r, c)))).unwrap()
 }
 
-/// Returns a patch with collapsed sides: bits 0 to 3 of `mask` are the sides v = 0, u = 1, v = 1, u = 0.
+/// Returns a patch with collapsed sides: bits 0 to 3 of `mask` stand for the sides v = 0, u = 1, v = 1, u = 0.
 fn collapsed(mask: u32) -> Patch {
     let mut points = *hill(|r, c| ((r * 5 + c * 3) % 7) as f64 * 0.1).points();
     // All sides are collapsed twice. Otherwise, two adjacent collapsed sides could have different points.

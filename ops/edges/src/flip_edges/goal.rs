@@ -8,11 +8,11 @@
 //! ```
 //!
 //! The energy is lowest for the equilateral triangle and grows without bound as the area approaches 0. A flip is an
-//! improvement if the energy of the two new triangles is lower than the energy of the two old ones. The sum of the
-//! energies of all triangles is the trace of the cotangent Laplacian of the mesh (Pinkall and Polthier, "Computing
-//! Discrete Minimal Surfaces and Their Conjugates", 1993). The hat function of a vertex is 1 at this vertex, 0 at all
-//! other vertices, and linear in each triangle. The trace is the sum of the Dirichlet energies of all hat functions. In
-//! the plane, a flip does not change the Dirichlet energy of linear functions. For any values at the four corners, the
+//! improvement if the two new triangles together have a lower energy than the two old triangles. The energies of all
+//! triangles add up to the trace of the cotangent Laplacian of the mesh (Pinkall and Polthier, "Computing Discrete
+//! Minimal Surfaces and Their Conjugates", 1993). The hat function of a vertex is 1 at this vertex, 0 at all other
+//! vertices, and linear in each triangle. The trace is the sum of the Dirichlet energies of all hat functions. In the
+//! plane, a flip does not change the Dirichlet energy of linear functions. For any values at the four corners, the
 //! change of the Dirichlet energy by a flip is a quadratic form of rank 1 in these values. The sign of this quadratic
 //! form depends on whether the fourth corner of the two triangles is inside the circle through the other three corners
 //! (Rippa, "Minimal Roughness Property of the Delaunay Triangulation", 1990). In the plane, a flip therefore reduces
@@ -25,16 +25,16 @@
 //! diagonals give zero-area triangles, and the shorter diagonal is better. Together, these two rules let flips resolve
 //! groups of zero-area triangles.
 //!
-//! **Valence.** A flip is an improvement if it reduces the sum over all vertices of (valence - target)², where the
-//! target is 6 inside and 4 on the boundary. Source: Botsch and Kobbelt, "A Remeshing Approach to Multiresolution
-//! Modeling", 2004.
+//! **Valence.** The target valence of a vertex is 6 inside and 4 on the boundary. A flip is an improvement if it
+//! reduces the sum of (valence - target)² over all vertices. Source: Botsch and Kobbelt, "A Remeshing Approach to
+//! Multiresolution Modeling", 2004.
 
 use std::ops::Range;
 
 use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
-/// A triangle counts as a zero-area triangle if its height is less than this fraction of its size, because the computed
-/// area of such a triangle is only rounding error.
+/// A triangle counts as a zero-area triangle if its height is less than this fraction of its size. The computed area of
+/// such a triangle is only rounding error.
 const NO_AREA: f64 = 1e-14;
 
 /// The range of the sum of the squared side lengths of a triangle. Inside the range, products of four lengths neither

@@ -123,7 +123,7 @@ proptest! {
 
 #[test]
 fn the_diagonals_of_squares_are_not_flipped() {
-    // The four corners of a square lie on a circle, so neither diagonal of the square is better.
+    // The four corners of a square lie on a circle, so both diagonals of the square are equally good.
     let grid = geometry::shapes::fans(&geometry::shapes::grid(9, 7));
     let (flipped, report) =
         try_applied(&parse("(edges: All, until: Delaunay)"), grid.clone()).unwrap();

@@ -94,7 +94,7 @@ struct CancellableFile<'a> {
 
 impl Write for CancellableFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // The size of the file is unknown, so each report says that 0 of 1 parts are finished. The call fails if the
+        // The size of the file is unknown, so each report says that 0 of 1 parts are finished. This call fails if the
         // run was canceled.
         self.progress
             .report("write", 0, 1)

@@ -77,7 +77,8 @@ pub trait EditTarget: Copy {
     /// Returns the elements of this target.
     fn elements(self) -> Vec<Element>;
 
-    /// Asks the processor to prefetch the memory of list items a little after index `at`, which are edited soon.
+    /// Asks the processor to prefetch the memory of the next elements to edit. `at` is the index of the current element
+    /// in the list.
     fn fetch_ahead(_: &Mesh, _: &[Self], _at: usize) {}
 }
 

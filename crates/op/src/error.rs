@@ -34,8 +34,8 @@ pub enum Refusal {
     RepeatedVertex,
     /// The edit would leave no faces at the place of the edge, or only two faces that lie back to back.
     Vanishes,
-    /// The two ends of an edge cannot be merged because of a common neighbor vertex: the neighbor is not a corner of a
-    /// triangle at the edge.
+    /// The two ends of an edge cannot be merged: they have a common neighbor that is not a corner of a triangle at the
+    /// edge.
     Link,
     /// The two ends of an edge cannot be merged because both lie on the boundary, but the edge does not.
     JoinsBoundaries,
@@ -126,7 +126,7 @@ pub enum OpError {
         /// Whether the operation has the parameter `on_refusal`, so that a recipe can continue after the refusal.
         can_skip: bool,
     },
-    /// A parameter has a value that the scene does not allow.
+    /// The value of a parameter does not fit the scene.
     #[error("{0}")]
     Parameter(String),
     /// An object does not exist, exists already, or is of the wrong kind.

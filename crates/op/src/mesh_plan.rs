@@ -100,8 +100,8 @@ impl MeshPlan {
         self.degrees == Range::exactly(3)
     }
 
-    /// Returns how many corners a part of the faces has in total, as a range. `faces` is the number of faces in this
-    /// part. The total is at most twice the number of edges of the mesh.
+    /// Returns the total number of corners of some of the faces, as a range. `faces` is the number of these faces. The
+    /// total is at most twice the number of edges of the mesh.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)
     }

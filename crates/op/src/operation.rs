@@ -21,8 +21,8 @@ pub trait MeshOperation:
 {
     /// The name of the operation in recipes. The struct has the same name.
     const NAME: &'static str;
-    /// The version of the operation's results. Increase this number after each change of the code that can change the
-    /// result for the same parameters and input.
+    /// The version of the operation's results. Increase this number whenever a change of the code can lead to a
+    /// different result for the same parameters and input.
     const VERSION: u32 = 1;
     /// What the operation does, in one line without a full stop, for lists of operations.
     const SUMMARY: &'static str;
@@ -77,8 +77,8 @@ pub trait Operation:
 {
     /// The name of the operation in recipes. The struct has the same name.
     const NAME: &'static str;
-    /// The version of the operation's results. Increase this number after each change of the code that can change the
-    /// result for the same parameters and input.
+    /// The version of the operation's results. Increase this number whenever a change of the code can lead to a
+    /// different result for the same parameters and input.
     const VERSION: u32 = 1;
     /// What the operation does, in one line without a full stop, for lists of operations.
     const SUMMARY: &'static str;

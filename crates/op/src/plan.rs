@@ -123,8 +123,8 @@ impl Plan {
         &mut self.objects
     }
 
-    /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of `take_edited`. If it was
-    /// not called, the list of objects is unchanged, except that objects were possibly added at its end.
+    /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of `take_edited`. If the
+    /// result is false, the list of objects has not changed since then, apart from new objects at its end.
     pub fn take_edited(&mut self) -> bool {
         std::mem::take(&mut self.is_edited)
     }

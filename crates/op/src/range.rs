@@ -105,7 +105,7 @@ impl Range {
         }
     }
 
-    /// Returns this range after both ends are limited to at most `cap`.
+    /// Returns this range with both ends limited to at most `cap`.
     #[must_use]
     pub fn capped(self, cap: u64) -> Self {
         Self {

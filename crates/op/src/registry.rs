@@ -114,8 +114,8 @@ impl Registry {
         self
     }
 
-    /// Adds an operation. Before that, removes each operation whose current name, or one of whose earlier names, is the
-    /// current name of the new operation.
+    /// Adds an operation that replaces others. First removes every operation that has the name of the new operation as
+    /// its current name or as an earlier name.
     #[must_use]
     pub fn with_override<T: Operation>(mut self) -> Self {
         self.entries

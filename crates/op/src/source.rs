@@ -9,9 +9,9 @@ use scene::{Object, Scene};
 use crate::plan::numbered;
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
-/// The largest planned number of edges of a mesh that is built from polygons. Each edge is a side of at most two
-/// polygons, so polygons with n edges have at most 2 n corners. While the mesh is built, each corner can need a
-/// separate edge, which has two half-edges. The mesh can therefore need 4 n half-edges. The largest possible id of a
+/// The largest number of edges in the plan of a mesh that is built from polygons. Each edge is a side of at most two
+/// polygons, so a mesh with n edges has at most 2 n corners. The builder can create a separate edge for each corner,
+/// and each edge has two half-edges. It therefore creates at most 4 n half-edges. The largest possible id of a
 /// half-edge is 2^32 - 2.
 const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 

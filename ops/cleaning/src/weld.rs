@@ -25,12 +25,12 @@ use op::prelude::*;
 /// edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
 ///
 /// If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-/// corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations. The
-/// step then reverses faces, so that all faces of a connected part have the same orientation, if this is possible. Of
-/// the two orientations, the more frequent one is kept. The report counts the reversed faces. If there are any, the
-/// normals of vertices and corners are dropped. If the result is still not a manifold, vertices and edges are copied.
-/// For example, if three faces share an edge, one of these faces gets a copy of the edge. The report counts the copies.
-/// If no vertices merge, the mesh does not change.
+/// corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations. If
+/// possible, the step then reverses faces, so that all faces of a connected part have the same orientation: the more
+/// frequent one. The report counts the reversed faces. If there are any, the normals of vertices and corners are
+/// dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three faces share an
+/// edge, one of these faces gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
+/// not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weld {

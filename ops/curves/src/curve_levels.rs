@@ -1,4 +1,4 @@
-//! Shows how de Casteljau's algorithm constructs a point of a Bezier curve, as polylines.
+//! Shows with polylines how de Casteljau's algorithm constructs a point of a Bezier curve.
 //!
 //! ```text
 //!        p1 ---- q1 ------ p2          p: level 0, the control polygon

@@ -21,7 +21,8 @@ use crate::moved::moved;
 /// in the box is a weighted sum of the new positions of all control points. The weights are Bernstein polynomials
 /// (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the same
 /// offset, the whole box moves by this offset. If only one control point moves, the points in the box move in the same
-/// direction, but less far. However, a control point at a corner of the box moves this corner exactly as far as itself.
+/// direction, but less far. However, if the control point is at a corner of the box, this corner moves exactly as far
+/// as the control point.
 ///
 /// Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes do
 /// not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces are
@@ -32,8 +33,8 @@ pub struct Lattice {
     /// The numbers of control points along x, y and z. Each number is from 2 to 16.
     pub size: [Count<2, 16>; 3],
     /// The control points that move. Each entry consists of the three indices of a control point (along x, y and z,
-    /// from 0) and the offset of this point in scene units. A control point that is listed several times moves by the
-    /// sum of its offsets.
+    /// counted from 0) and the offset of this point in scene units. A control point that is listed several times moves
+    /// by the sum of its offsets.
     pub moves: Vec<([u32; 3], Vector)>,
     /// The corner of the box with the lowest coordinates. If omitted, the same corner of the bounding box of the mesh
     /// is used.

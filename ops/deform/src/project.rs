@@ -16,9 +16,9 @@ use crate::moved::moved;
 
 /// Moves vertices onto the surface of another object (shrinkwrap).
 ///
-/// Only vertices in `vertices` that are not in `pin` move. All other vertices keep their exact positions. If the step
-/// does not name objects with `on`, it acts on all meshes except the object that `onto` names. Normals and tangents are
-/// dropped. Faces, element ids and other attributes do not change, so textures stretch with the surface.
+/// A vertex moves only if it is in `vertices` and not in `pin`. All other vertices keep their exact positions. If the
+/// step does not name objects with `on`, it acts on all meshes except the object that `onto` names. Normals and
+/// tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with the surface.
 ///
 /// Vertices that would move farther than `distance` do not move. With `along: Normal`, a vertex moves along the line of
 /// its normal, and with `along: Direction(..)`, along a ray in this direction. If this line or ray misses the surface,

@@ -17,10 +17,10 @@ use crate::moved::{Stretch, moved, next};
 /// Rotates vertices around an axis, by an angle that grows along the axis.
 ///
 /// Along the axis, the angle grows linearly from 0 at the coordinate `from` to `angle` at the coordinate `to`. Vertices
-/// below `from` do not move, and vertices above `to` rotate by `angle`. A twist of a smooth surface would keep the
-/// volume exactly. The volume of a mesh changes slightly, because its edges stay straight, but the change is small if
-/// the mesh is fine. A second twist with the opposite angle and the same other parameters undoes the first twist.
-/// Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+/// below `from` do not move, and vertices above `to` rotate by `angle`. An exact twist keeps the volume. The volume of
+/// a mesh changes slightly, because its edges stay straight, but the change is small if the mesh is fine. A second
+/// twist with the opposite angle and the same other parameters undoes the first twist. Source: Barr, "Global and Local
+/// Deformations of Solid Primitives", 1984.
 ///
 /// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
 /// the surface. Only vertices move, so refine the mesh first if its faces are large.

@@ -17,8 +17,8 @@ use op::prelude::*;
 /// is not removed and only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed
 /// in order of their ids. An edge that an earlier collapse removed counts as refused.
 ///
-/// A collapse is refused if it would change the topology of the surface, or if different elements would become the
-/// same. The report or the error message gives one of these reasons:
+/// A collapse is refused if it would change the topology of the surface, or if two different elements would become one.
+/// The report or the error message gives one of these reasons:
 ///
 /// - `JoinsBoundaries`: both ends of the edge are on the boundary, but the edge itself is not.
 /// - `Link`: the ends have a common neighboring vertex that is not a corner of a triangle beside the edge. Examples are

@@ -17,10 +17,10 @@ use op::prelude::*;
 ///
 /// The step sets two attributes to `sharpness`: the edge attribute `crease` of the selected edges, and the vertex
 /// attribute `corner` of the selected vertices. Elements that are not selected keep their values, or get 0 if the
-/// attribute did not exist before the step. Loop and Catmull-Clark subdivision keep an edge or a vertex with sharpness
-/// s sharp in the first s levels. They smooth it in later levels. For example, an edge with sharpness 2.5 is sharp in
-/// the first two levels. The third level places the vertices halfway between the sharp and the smooth result. An edge
-/// with sharpness 10 stays sharp, however many levels follow. Boundary edges are always sharp.
+/// attribute did not exist before the step. In Loop and Catmull-Clark subdivision, an edge or a vertex with sharpness s
+/// stays sharp in the first s levels and becomes smooth in later levels. For example, an edge with sharpness 2.5 is
+/// sharp in the first two levels. The third level places the vertices halfway between the sharp and the smooth result.
+/// An edge with sharpness 10 stays sharp, however many levels follow. Boundary edges are always sharp.
 ///
 /// At least one of `edges` and `vertices` must be given. The geometry does not change. The report counts the elements
 /// whose value changed.

@@ -33,10 +33,11 @@ use region::Region;
 ///
 /// The moved faces keep their ids. A later step can therefore extrude the same faces again, for example to grow an arm
 /// out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do not
-/// move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by region (by the
-/// lowest face id of each region), then by the id of the adjacent moved face. Around each moved face, the order is
-/// counter-clockwise from its first corner. Each side face adds one new vertex, so the new vertices are in the order of
-/// the side faces. A new vertex is a copy of a vertex on the old rim: the first vertex of its side face.
+/// move, and the moved faces get a new rim. New side faces get the highest ids. Side faces are ordered by region, and
+/// within a region by the id of the adjacent moved face. Regions are ordered by their lowest face id. Around each moved
+/// face, the order is counter-clockwise from its first corner. Each side face adds one new vertex, so the new vertices
+/// are in the order of the side faces. A new vertex is a copy of a vertex on the old rim: the first vertex of its side
+/// face.
 ///
 /// A side face has the attribute values (material, tags) of the adjacent moved face. The corners of a side face have
 /// the values of the corners of the moved face, so textures have no seam between the two faces. However, a side face

@@ -25,9 +25,9 @@ pub struct Save {
     /// example, `{input.stem}.glb` becomes `bunny.glb` if the parameter `input` is `models/bunny.obj`.
     pub path: String,
     /// What to do with the images of materials. If omitted, images are embedded in `.glb` files. For `.gltf` and
-    /// `.obj`, the image files of the model that was loaded are copied to the folder of the output file. If images are
-    /// embedded in the loaded model, a `.gltf` file also embeds them. For `.obj`, embedded images are written to
-    /// separate files, because OBJ cannot embed images.
+    /// `.obj`, the image files of the loaded model are copied to the folder of the output file. If images are embedded
+    /// in the loaded model, a `.gltf` file also embeds them. For `.obj`, embedded images are written to separate files,
+    /// because OBJ cannot embed images.
     #[serde(default)]
     pub images: Option<Images>,
     /// How to compress the geometry of `.glb` and `.gltf` files without loss. If omitted, the geometry is not

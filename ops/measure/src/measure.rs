@@ -24,7 +24,7 @@ use crate::MeasureOf;
 /// lowest, the mean and the highest value.
 ///
 /// If the mesh already has an attribute of this name, the attribute is replaced. The step fails if the existing
-/// attribute belongs to a different kind of element, or if its values are not single floating-point numbers.
+/// attribute belongs to a different kind of element, or does not have one floating-point number per element.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measure {

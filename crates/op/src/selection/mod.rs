@@ -1,9 +1,8 @@
 //! Selections: values that describe which vertices, edges or faces an operation works on.
 //!
 //! The selection types for vertices, edges and faces have many variants in common: `And`, `Or`, `Not`, `Grow`,
-//! `Shrink`, `Component`, choices from another selection (`Random`, `Nearest` and others), and `Expect`. `Expect` fails
-//! unless another selection has the expected number of elements. A step evaluates its selections once, before the first
-//! edit.
+//! `Shrink`, `Component`, choices from another selection (`Random`, `Nearest` and others), and `Expect`. `Expect`
+//! checks the number of elements of another selection. A step evaluates its selections once, before the first edit.
 
 /// Defines a selection type. The type gets the variants that all three types share, and its own variants.
 macro_rules! selection {
@@ -97,8 +96,8 @@ macro_rules! selection {
                 #[serde(default)]
                 of: Box<Self>,
             },
-            /// The elements of the selection `of`, which must have exactly `count` elements. Otherwise the step fails
-            /// with the reason `Expectation`.
+            /// The elements of the selection `of`. The step fails with the reason `Expectation` unless `of` has exactly
+            /// `count` elements.
             Expect {
                 #[doc = concat!("The expected number of ", $elements, ".")]
                 count: u32,
@@ -237,7 +236,7 @@ pub trait Select: Sized + Sync {
 }
 
 impl<S: Select> Shared<'_, S> {
-    /// Returns a mask: one flag for each element, which says whether this variant selects the element.
+    /// Returns a mask: one flag for each element. The flag says whether this variant selects the element.
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError> {
         Ok(match *self {
             Self::Own => {

@@ -16,10 +16,10 @@
 //! change of the Dirichlet energy by a flip is a quadratic form of rank 1 in these values. The sign of this quadratic
 //! form depends on whether the fourth corner of the two triangles is inside the circle through the other three corners
 //! (Rippa, "Minimal Roughness Property of the Delaunay Triangulation", 1990). In the plane, a flip therefore reduces
-//! the energy if and only if the edge does not satisfy the Delaunay condition. Flipping such edges ends with the
-//! Delaunay triangulation (Lawson, "Software for C1 Surface Interpolation", 1977). Four times the sum of the energies
-//! of all triangles is the harmonic index of Musin, "Properties of the Delaunay Triangulation", 1997. The energy is
-//! also defined for surfaces in space.
+//! the energy if and only if the edge does not satisfy the Delaunay condition. If edges that do not satisfy the
+//! condition are flipped repeatedly, the result is the Delaunay triangulation (Lawson, "Software for C1 Surface
+//! Interpolation", 1977). Four times the sum of the energies of all triangles is the harmonic index of Musin,
+//! "Properties of the Delaunay Triangulation", 1997. The energy is also defined for surfaces in space.
 //!
 //! A flip that reduces the number of zero-area triangles is an improvement. If all four corners are collinear, both
 //! diagonals give zero-area triangles, and the shorter diagonal is better. Together, these two rules let flips resolve

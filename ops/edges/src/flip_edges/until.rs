@@ -4,8 +4,8 @@
 //! vertices whose edges changed, and the edges whose flip the previous pass refused. At all other edges, the check
 //! would have the same result as in the previous pass. (A flip is refused if an edge already joins the two opposite
 //! corners. If this joining edge is flipped, both of its former ends count as changed vertices.) A pass that flips no
-//! edge is the last pass. Every pass checks all edges again that the previous pass refused, so the report counts only
-//! the refusals of the last pass.
+//! edge is the last pass. Every pass again checks all edges whose flip the previous pass refused, so the report counts
+//! only the refusals of the last pass.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};
 use op::{Context, OpError, Report};
@@ -121,8 +121,8 @@ impl ChangedNeighborhood {
         }
     }
 
-    /// Returns the edges that end at the collected vertices, the edges opposite to these vertices in their triangles,
-    /// and the edges in `additional`, in order of their ids. Removes the collected vertices from the collector.
+    /// Returns edges in order of their ids: the edges that end at the collected vertices, the edges opposite to these
+    /// vertices in their triangles, and the edges in `additional`. Removes the collected vertices from the collector.
     fn take_edges(&mut self, mesh: &Mesh, additional: impl Iterator<Item = EdgeId>) -> Vec<EdgeId> {
         let mut edges = Vec::new();
         let mut collect = |e: EdgeId| {

@@ -15,7 +15,7 @@ use op::prelude::*;
 /// Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
 /// face shares an edge with a face that is not selected, the step fails. No vertex moves, and all elements keep their
 /// ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals are negated.
-/// Attributes with the edit rule `Drop` (removed by every change of the connectivity), such as tangents of corners, are
+/// Attributes that do not survive changes of the connectivity (edit rule `Drop`), such as tangents of corners, are
 /// removed. Vertices, edges and faces keep all other values. The values of a corner stay at the same vertex of the same
 /// face.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]

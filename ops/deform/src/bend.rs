@@ -44,8 +44,8 @@ pub struct Bend {
     /// along the axis.
     #[serde(default)]
     pub from: Option<Distance>,
-    /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the
-    /// mesh along the axis. Must not be less than `from`.
+    /// The coordinate along the axis at which the deformation reaches its full amount. If omitted, the highest
+    /// coordinate of the mesh along the axis. Must not be less than `from`.
     #[serde(default)]
     pub to: Option<Distance>,
     /// The vertices to move. If omitted, all vertices.

@@ -10,7 +10,7 @@ use op::{Operation, named_object};
 /// Deletes objects.
 ///
 /// The remaining objects keep their order. If a node of the scene (as in glTF) places a deleted object, the step also
-/// removes the node. However, a node that has children, a camera or a light, or that is a joint of a skin, is kept
+/// removes the node. However, if the node has children, a camera or a light, or is a joint of a skin, the node is kept
 /// without the object.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

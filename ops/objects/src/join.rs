@@ -32,10 +32,10 @@ use crate::join::skin::{KeptSkin, LostSkin};
 /// its points are already at their positions in the scene. The names and default weights of morph targets are kept if
 /// they are the same in all parts that have morph targets.
 ///
-/// If a part (one of the joined meshes) lacks an attribute that another part has, the attribute gets the value zero in
-/// the part that lacks it. Missing material indices become -1 (no material). If a part has no normals, the normals of
-/// all parts are dropped and reported as lost. If an attribute of a part has a different type than in earlier parts,
-/// the attribute of this part is dropped and reported as lost. Equal materials become one material.
+/// If only some of the parts have an attribute, the value of this attribute is zero in all other parts. Missing
+/// material indices become -1 (no material). If a part has no normals, the normals of all parts are dropped and
+/// reported as lost. If an attribute of a part has a different type than in earlier parts, the attribute of this part
+/// is dropped and reported as lost. Equal materials become one material.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Join {
@@ -83,7 +83,7 @@ impl Operation for Join {
             return problems;
         }
         if parts.len() != self.objects.len() {
-            // If an earlier step could not be planned, this step possibly creates the missing objects.
+            // The missing objects are possibly created by an earlier step that could not be planned.
             plan.incomplete = true;
             return problems;
         }
@@ -184,9 +184,9 @@ impl Join {
         problems
     }
 
-    /// Removes the nodes of all parts except the node of the part `kept`, whose skin is kept. The node of `kept` then
-    /// places the result. If `kept` is `None`, the result has no node. `label` has the names and default weights of the
-    /// morph targets, if the parts share them.
+    /// Removes the nodes of all parts except `kept`, the part whose skin the result keeps. The node of `kept` then
+    /// places the result. If `kept` is `None`, the result has no node. `label` contains the names and default weights
+    /// of the morph targets if the parts share them.
     fn join_nodes(&self, graph: &mut Graph, kept: Option<&str>, label: Option<MeshLabel>) {
         let first = &self.objects[0];
         if kept != Some(first) {
@@ -239,8 +239,8 @@ impl Join {
         Ok((object, report))
     }
 
-    /// Returns the plan of the result, which predicts its counts and attributes. Each entry of `parts` has the number
-    /// of instances of the part, that is, how often nodes place the part in the scene.
+    /// Returns the plan of the result, which predicts its counts and attributes. Each entry of `parts` contains the
+    /// plan of a part, and the number of instances of the part in the scene.
     fn joined_plan(&self, parts: &[(MeshPlan, u64)]) -> MeshPlan {
         let mut joined = parts[0].0.clone();
         let none = Range::exactly(0);
@@ -266,7 +266,7 @@ impl Join {
                 }
             }
         }
-        // An attribute that some parts lack is not certain. If it holds normals, the step drops it.
+        // If some parts lack an attribute, the result possibly lacks it too, because the step drops incomplete normals.
         let certain =
             |a: &PlannedAttribute| parts.iter().all(|(part, _)| part.attributes.contains(a));
         for attribute in &mut joined.attributes {

@@ -11,7 +11,7 @@ use op::{Operation, named_object};
 ///
 /// The order of the objects does not change. If an object comes from a glTF file, the object, its nodes and its mesh
 /// each have a name, and these names can differ. A node or mesh with the old name of the object also gets the new name.
-/// If no node has the old name, the mesh always gets the new name.
+/// If no node has the old name, the mesh gets the new name even if the mesh did not have the old name.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rename {

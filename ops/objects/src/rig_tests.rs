@@ -21,7 +21,7 @@ fn insert(mesh: &mut Mesh, name: String, values: Values) {
 }
 
 /// Returns a scene with a tetrahedron, and a cube that is bound to the joints `hip` and `knee`. The cube has a morph
-/// target. The hip and the weight of the morph target are animated.
+/// target. Animations move the joint `hip` and change the weight of the morph target.
 fn scene() -> Scene {
     let mut cube = shapes::cube();
     let weights: Vec<f64> = (0..8).map(|v| f64::from(v) / 8.0).collect();
@@ -332,7 +332,7 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
     assert_eq!(back, only);
 }
 
-/// The plan of a step predicts the same nodes, skins, animations and lost channels as the run of the step has.
+/// The nodes, skins, animations and lost channels in the plan of a step are the same as after the run of the step.
 #[test]
 fn the_plan_has_the_nodes_of_the_run() {
     fn check<T: op::Operation>(text: &str, scene: &mut Scene) {

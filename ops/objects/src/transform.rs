@@ -36,8 +36,8 @@ use crate::transform::map::Map;
 /// nodes without an object, such as the nodes of cameras and lights, also move if three conditions hold: `space` is
 /// `Scene`, the step has no `on`, and `about` is not `Center`. The step fails if a curve would leave the plane z = 0.
 ///
-/// Ids do not change. If the points of a mesh change, the normals, tangents and deltas of morph targets of this mesh
-/// are also transformed. Other attributes do not change. If the points are mirrored (one or three negative factors in
+/// Ids do not change. If the points of a mesh change, its normals, its tangents and the deltas of its morph targets are
+/// also transformed. Other attributes do not change. If the points are mirrored (one or three negative factors in
 /// `scale`), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed face,
 /// the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v are
 /// exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule `Drop`, such as

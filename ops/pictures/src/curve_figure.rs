@@ -43,7 +43,7 @@ pub struct CurveFigure {
     /// Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
     #[serde(default)]
     pub by_level: bool,
-    /// The name of a curve that is the earlier state of the drawn curves. The earlier curve is drawn faintly behind
+    /// The name of a curve that shows an earlier state of the drawn curves. The earlier curve is drawn faintly behind
     /// each drawn curve. Arrows lead from the old positions of control points to their new positions.
     #[serde(default)]
     pub before: Option<String>,

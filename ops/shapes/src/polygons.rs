@@ -142,7 +142,7 @@ mod tests {
         op::test::read(text).unwrap()
     }
 
-    /// Plans the step. Returns the path and the message of the problem, which must be the only problem.
+    /// Plans the step, which must have exactly one problem. Returns the path and the message of this problem.
     fn problem(text: &str) -> (String, String) {
         let step = step(text);
         assert!(matches!(

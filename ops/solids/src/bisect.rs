@@ -66,7 +66,7 @@ impl MeshOperation for Bisect {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         // The plane crosses each side of a face at most once. The number of cuts through a face is half the number of
-        // its sides that the plane crosses.
+        // sides that the plane crosses.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();

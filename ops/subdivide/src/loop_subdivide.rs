@@ -55,7 +55,8 @@ pub struct LoopSubdivide {
     /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
     #[serde(default)]
     pub until: Option<Until>,
-    /// The weights for the new position of an old vertex: a weighted mean of its old position and its neighbors.
+    /// The weights that determine the new positions of old vertices. An old vertex moves to a weighted mean of its old
+    /// position and its neighbors.
     #[serde(default)]
     pub weights: LoopWeights,
     /// How vertices on the boundary move.

@@ -65,7 +65,7 @@ impl Step<'_> {
         self.most_levels() == 0 && !self.to_limit && self.until.is_none()
     }
 
-    /// Returns an error message about the parameters, with the name of the wrong parameter.
+    /// If a parameter is wrong, returns an error message and the name of the parameter.
     fn problem(&self) -> Option<(String, &'static str)> {
         if self.faces.is_some() && (self.until.is_some() || self.to_limit) {
             let message =
@@ -115,8 +115,8 @@ impl Step<'_> {
                     .at(["levels"])
                     .help(too_large.help()),
             );
-            // The plan continues with the largest number of levels that fits, so that later steps do not report the
-            // same problem again.
+            // The plan continues with the largest number of levels that fits the memory budget, so that later steps do
+            // not report the same problem again.
             levels = too_large.fits.unwrap_or(0);
         }
         let end = (0..levels).fold(start, |size, level| size.after(scheme, level));
@@ -227,7 +227,7 @@ impl Step<'_> {
     }
 }
 
-/// Returns the advice for a scheme that needs triangles if a face is not a triangle.
+/// Returns advice for meshes with faces that are not triangles. The scheme must need triangles.
 fn help_for_polygons(scheme: Scheme) -> &'static str {
     match scheme {
         Scheme::Midpoint(_) => "write `into: Quads`, or triangulate the faces first",
@@ -254,7 +254,7 @@ fn to_op_error(error: SubdivisionError) -> OpError {
     }
 }
 
-/// A range of a count of elements, with the operations that [`Size`] needs.
+/// The smallest and the largest possible count of elements, with the operations that [`Size`] needs.
 #[derive(Clone, Copy)]
 struct Planned(Range);
 

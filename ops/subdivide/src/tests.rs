@@ -208,7 +208,7 @@ fn the_plan_and_the_operation_keep_the_memory_budget() {
     );
 }
 
-/// A receiver of progress that cancels the run after `limit` calls, and records the largest progress.
+/// Receives progress reports, cancels the run after `limit` calls, and records the largest progress.
 struct StopAfter {
     calls: AtomicU64,
     furthest: AtomicU64,

@@ -43,7 +43,7 @@ use op::prelude::*;
 ///
 /// No collapse turns a triangle over. Remaining elements get new ids, in the order of their old ids. If `error` is not
 /// given and the number of faces cannot be reached, the step is refused (reason: `Unreached`), and the message states
-/// why. With `on_refusal: Skip`, the result is instead the simplified mesh with the fewest faces that the step reached.
+/// why. With `on_refusal: Skip`, the step is not refused: it simplifies the mesh as far as it can.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Simplify {

@@ -45,8 +45,8 @@ pub struct Smooth {
     /// How vertices on the boundary move.
     #[serde(default)]
     pub boundary: SmoothBoundary,
-    /// Whether to restore the original volume of the mesh after smoothing. To restore the volume, the step shifts all
-    /// vertices that it is allowed to move by the same distance along their normals. The mesh must be closed.
+    /// Whether to restore the original volume of the mesh after smoothing. To restore the volume, all vertices that are
+    /// allowed to move are shifted by the same distance along their normals. The mesh must be closed.
     #[serde(default)]
     pub keep_volume: bool,
 }
@@ -98,7 +98,7 @@ pub enum SmoothBy {
     },
 }
 
-/// The weights of the neighbors of a vertex in the mean towards which the vertex moves.
+/// How the neighbors of a vertex are weighted. The vertex moves towards their weighted mean.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum SmoothWeights {

@@ -203,7 +203,7 @@ impl Transfer {
     }
 }
 
-/// Returns the message that the object `from` does not have the attribute `name`.
+/// Returns the error message for an attribute `name` that the object `from` does not have.
 fn missing<'a>(from: &str, name: &str, known: impl Iterator<Item = (Domain, &'a str)>) -> String {
     let known: Vec<String> = known
         .map(|(domain, name)| format!("{domain} attribute \"{name}\""))

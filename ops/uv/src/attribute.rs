@@ -82,7 +82,7 @@ pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Repor
     }
 }
 
-/// Returns the texture coordinates of a mesh that the attribute `uv` stores.
+/// Returns the texture coordinates that the attribute `uv` of a mesh stores.
 pub(crate) fn get<'m>(mesh: &'m Mesh, uv: &str) -> Result<&'m [DVec2], OpError> {
     let column = mesh.attributes().column(Domain::Corner, uv);
     let uvs = column.and_then(|column| DVec2::of(&column.values));

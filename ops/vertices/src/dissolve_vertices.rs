@@ -20,10 +20,10 @@ use op::prelude::*;
 /// order and their values but get new ids. Normals are dropped.
 ///
 /// A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring vertex
-/// would be left with a single edge, which ends inside a face. A removal is also refused if a face would contain a
-/// vertex twice or have fewer than three corners, or if a new edge would join two vertices that an edge already joins.
-/// A vertex on a seam (an edge whose corner values, such as UVs, differ between its two sides) is removed only if
-/// `seams` is `Drop`.
+/// would be left with a single edge, because this edge would end inside a face. A removal is also refused if a face
+/// would contain a vertex twice or have fewer than three corners, or if a new edge would join two vertices that an edge
+/// already joins. A vertex on a seam (an edge whose corner values, such as UVs, differ between its two sides) is
+/// removed only if `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveVertices {

@@ -145,9 +145,9 @@ pub(super) fn morphed<'a>(parts: &[&'a Object]) -> Vec<&'a str> {
     morphed.map(|part| part.name.as_str()).collect()
 }
 
-/// Returns the names and default weights of morph targets that all parts with morph targets share. Returns `None` if
-/// the names or default weights differ, or if a node of a part has weights that are not the default weights. `morphed`
-/// contains the names of the parts with morph targets.
+/// Returns the names and default weights of the morph targets. Returns `None` if the names or default weights differ
+/// between the parts, or if a node of a part has other weights than the default weights. `morphed` contains the names
+/// of the parts with morph targets.
 pub(super) fn shared_label(graph: &Graph, morphed: &[&str]) -> Option<MeshLabel> {
     let mut shared = None;
     for part in morphed {

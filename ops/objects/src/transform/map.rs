@@ -43,8 +43,8 @@ impl Map {
     ///
     /// Normals are transformed by the inverse transpose of R S, which is R S^-1 (Turkowski, "Properties of
     /// Surface-Normal Transformations", 1990). Only the direction of the result matters. S^-1 is therefore multiplied
-    /// by the smallest absolute scale factor among the axes on which the normal has a nonzero coordinate. With this
-    /// multiplication, no coordinate of the result overflows, and at least one does not underflow.
+    /// by a number: the smallest absolute scale factor of the axes along which the coordinate of the normal is not 0.
+    /// With this multiplication, no coordinate of the result overflows, and at least one does not underflow.
     pub(crate) fn normal(&self, n: DVec3) -> DVec3 {
         let zero = n.cmpeq(DVec3::ZERO);
         if zero.all() {

@@ -226,7 +226,7 @@ fn highlights_in_a_scene_without_meshes_give_a_note() {
     assert_eq!(notes(highlighted, &scene), [""; 0]);
 }
 
-/// A receiver of progress that cancels the run when the task with this name is half done.
+/// Receives progress reports. Contains the name of a task, and cancels the run when this task is half done.
 struct Halfway(&'static str);
 
 impl op::Progress for Halfway {

@@ -243,8 +243,8 @@ fn planned_counts_are_exact_for_every_scheme_on_every_fixture() {
                 }
                 let exactly = MeshPlan::of(&new);
                 if scheme == Scheme::DooSabin && levels > 0 {
-                    // Doo-Sabin subdivision replaces only some of the vertices with faces. The plan does not know how
-                    // many.
+                    // Doo-Sabin subdivision replaces only some of the vertices with faces. The plan does not know the
+                    // number of these vertices.
                     for (planned, exactly) in [
                         (&mut plan.vertices, exactly.vertices),
                         (&mut plan.edges, exactly.edges),

@@ -16,8 +16,8 @@ use geometry::surface_index::{SurfaceIndex, nearest_on_triangle, triangle_distan
 use mesh::{DVec3, Domain, FaceId, HalfEdgeId, Mesh, Values};
 use op::{Cancelled, Progress};
 
-/// Corners are moved toward the center of their face by this fraction of the distance. If a corner lies at a seam, the
-/// nearest face of the source is then on the same side of the seam as the face of the corner.
+/// Corners are moved toward the center of their face by this fraction of their distance from the center. If a corner
+/// lies at a seam, the nearest face of the source is then on the same side of the seam as the face of the corner.
 const INSET: f64 = 1e-6;
 
 /// The largest number of pairs of triangles for which the distance between two polygons is computed. With more pairs,
@@ -35,7 +35,7 @@ pub(super) struct Charts<'a> {
     faces: Vec<Vec<FaceId>>,
     /// The spatial index of each chart. An index is built when it is first needed.
     indices: Vec<Option<SurfaceIndex>>,
-    /// A spatial index of the faces beside seams that lie inside a chart.
+    /// A spatial index of the faces next to seams that run inside a chart.
     seams: Option<SurfaceIndex>,
 }
 
@@ -117,10 +117,9 @@ impl<'a> Charts<'a> {
         Ok(self.indices[chart].as_ref().expect("a chart has faces"))
     }
 
-    /// Returns the first candidate, unless the distance of another candidate from the face `f` is less than half of the
-    /// distance of the first candidate. If there is such a candidate, returns the candidate that is nearest to `f`. The
-    /// distance between a chart and a face is the largest distance of a corner or the center of the face from the
-    /// chart.
+    /// Returns the candidate that is nearest to the face `f` if its distance from `f` is less than half of the distance
+    /// of the first candidate. Otherwise, returns the first candidate. The distance between a chart and a face is the
+    /// largest distance of a corner or the center of the face from the chart.
     pub(super) fn nearest(
         &mut self,
         candidates: &[usize],

@@ -34,8 +34,9 @@ impl Source<'_> {
         Some([(face, 1.0), (face, 0.0), (face, 0.0)])
     }
 
-    /// Returns the origin of each corner of the target, at the index of its half-edge. `vertices` and `faces` contain
-    /// the points of the source that are nearest to the vertices and to the face centers of the target.
+    /// Returns the origins of the corners of the target. The index of an origin is the index of the half-edge of its
+    /// corner. `vertices` and `faces` contain the points of the source that are nearest to the vertices and to the face
+    /// centers of the target.
     pub(super) fn of_corners(
         &self,
         target: &Mesh,

@@ -4,8 +4,8 @@ use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between, area_vector, parallel};
 
 use crate::vertex_normals::Weight;
 
-/// A sum of face vectors counts as zero if its largest coordinate is at most this fraction of the sum of the magnitudes
-/// of the added coordinates. A sum below this limit is only rounding error.
+/// A [`Sum`] of face vectors counts as zero if the largest coordinate of `sum` is at most this fraction of the largest
+/// coordinate of `magnitude`. A sum below this limit is only rounding error.
 const CANCELLED: f64 = 1e-14;
 
 /// Returns the unit normal of every vertex of a dense mesh, and the number of vertices without a normal. Vertices

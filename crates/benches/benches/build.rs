@@ -5,8 +5,8 @@
 //! neighbors are close in memory. The input is in memory before the measured time starts. The mesh is written to newly
 //! allocated memory.
 //!
-//! - `build`: builds the mesh from an array of the vertices of all corners, and an array of offsets: for each face, the
-//!   index of its first corner.
+//! - `build`: builds the mesh from an array of the vertices of all corners, and an array of offsets. The offset of a
+//!   face is the index of its first corner.
 //! - `from_polygons`: builds the mesh from one list of corners for each triangle. The library first copies these lists
 //!   into offsets and corners.
 //! - `shuffled`: the same triangles and vertices in random order, so that neighbors are far apart in memory.

@@ -6,18 +6,18 @@
 //! - A **Bezier curve** c(t) of degree n has n + 1 *control points* `p_i`. The point c(t) is a weighted mean of the
 //!   control points: the sum of `p_i B(n, i)(t)`, where B(n, i) are the Bernstein polynomials. See [`Curve`], in 2D and
 //!   3D.
-//! - **De Casteljau's algorithm** computes c(t) in levels. The points of a level are joined by legs, and each
-//!   point of the next level divides one leg in the ratio t : 1 - t. See [`one_step`] and [`Curve::levels`].
+//! - **De Casteljau's algorithm** computes c(t) in levels. The points of a level are joined by legs. Each point of the
+//!   next level divides one leg in the ratio t : 1 - t. See [`one_step`] and [`Curve::levels`].
 //! - A **bicubic patch** s(u, v) has 4 by 4 control points: u runs along the rows, v across them. Each row defines a
 //!   cubic curve in u. For a given u, the four points of these curves are the control points of a cubic curve in v. See
 //!   [`Patch`].
 //! - A **tessellation** samples patches at u = i/n, v = j/n and joins the samples by triangles or
 //!   quads. See [`tessellate()`] and [`counts`].
 //!
-//! The corners of a face are in counter-clockwise order when seen from the side to which the normal ds/du x ds/dv
-//! points. If two patches share a boundary, their tessellations into the same number of segments have the same vertex
-//! positions on this boundary, bit for bit. A side of a patch is collapsed if all of its points coincide. A collapsed
-//! side becomes one vertex of the tessellation, with an exact normal.
+//! The corners of a face are in counter-clockwise order if the normal ds/du x ds/dv points to the viewer. If two
+//! patches share a boundary, their tessellations into the same number of segments have the same vertex positions on
+//! this boundary, bit for bit. A side of a patch is collapsed if all of its points coincide. A collapsed side becomes
+//! one vertex of the tessellation, with an exact normal.
 //!
 //! # Examples
 //!

@@ -162,9 +162,9 @@ mod tests {
 
     #[test]
     fn normals_of_a_collapsed_edge_are_limits() {
-        // As in the lid of the teapot, all control points in the first row of `lid` coincide, and all control points in
-        // the third row of `lid` coincide. As in the bottom of the teapot, all control points in the first row of
-        // `bottom` coincide.
+        // In the first row of `lid`, all control points coincide, as in the lid of the teapot. The same holds for the
+        // third row of `lid`. In the first row of `bottom`, all control points coincide, as in the bottom of the
+        // teapot.
         let lid = quarter_turn([[0.0, 3.15], [0.8, 3.15], [0.0, 2.85], [0.2, 2.7]]);
         let bottom = quarter_turn([[0.0, 0.0], [1.4, 0.0], [1.5, 0.1], [1.5, 0.2]]);
         for patch in [octant(), lid, bottom] {

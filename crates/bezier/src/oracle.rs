@@ -42,7 +42,8 @@ pub(crate) fn patch(points: &[[DVec3; 4]; 4], u: f64, v: f64) -> [DVec3; 3] {
     [point(&rows, v), point(&slopes, v), derivative(&rows, v)]
 }
 
-/// Returns the sum of the points, each multiplied by its weight for degree n and index i.
+/// Returns the sum of the products of point i and `weight(n, i)`, where n is the degree: the number of points minus
+/// one.
 fn sum(points: &[DVec3], weight: impl Fn(i32, i32) -> f64) -> DVec3 {
     let n = i32::try_from(points.len()).unwrap() - 1;
     (0..=n).zip(points).map(|(i, &p)| p * weight(n, i)).sum()

@@ -76,9 +76,9 @@ impl Patch {
     /// Returns the point at (`u`, `v`). Evaluates each row of control points at u. The four resulting points are the
     /// control points of a cubic, which is evaluated at v.
     ///
-    /// On the boundary of the patch, the result is equal bit for bit to the point of the boundary curve, whose control
-    /// points are the first or last row or column of the patch. At a corner of the patch, the result is a control
-    /// point.
+    /// On the boundary of the patch, the result is equal bit for bit to the point of the boundary curve. The control
+    /// points of the boundary curve are the first or last row or column of the patch. At a corner of the patch, the
+    /// result is a control point.
     pub fn point(&self, u: f64, v: f64) -> DVec3 {
         self.point_at(Weights::at(u), Weights::at(v))
     }

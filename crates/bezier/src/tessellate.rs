@@ -12,8 +12,8 @@
 //! ```
 //!
 //! Vertex ids increase along u first, then along v, then from patch to patch. Different patches share no vertices. To
-//! join neighboring patches, weld the vertices of the result. If two patches have the same control points on a common
-//! boundary, in the same or in reverse order, their vertices on this boundary have positions that are equal bit for
+//! join neighboring patches, weld the vertices of the result. Two patches can have the same control points on a common
+//! boundary, in the same or in reverse order. Their vertices on this boundary then have the same positions, bit for
 //! bit.
 //!
 //! A side of a patch is collapsed if its points coincide, as at the pole of a teapot's lid. A collapsed side becomes
@@ -26,9 +26,9 @@
 //! sides become a vertex at the start of the first of these sides. The UV and the normal of this vertex are the values
 //! at the middle of the first side.
 //!
-//! A patch is a curve or a point if all rows of its control points are the same, or all columns, within the tolerance
-//! for collapsed sides. If a patch is a curve or a point, or if none of its cells becomes a face, its tessellation has
-//! no vertices and no faces. The result lists these patches.
+//! A patch is a curve or a point if all its rows of control points are the same, or all its columns. The tolerance is
+//! the same as for collapsed sides. If a patch is a curve or a point, or if none of its cells becomes a face, its
+//! tessellation has no vertices and no faces. The result lists these patches.
 //!
 //! The tessellation detects collapsed sides, and patches that are a curve or a point. It detects no other degeneracies.
 //! Faces can have zero area if a patch folds onto itself. With too few segments, the corners of a cell can be
@@ -232,7 +232,8 @@ mod tests {
             .collect()
     }
 
-    /// Returns the positions along a side (0 to 3: v = 0, u = 1, v = 1, u = 0), in the direction of u or v.
+    /// Returns the positions along a side, in the direction of increasing u or v. The sides 0 to 3 are v = 0, u = 1, v
+    /// = 1 and u = 0.
     fn side_positions(patch: &Patch, n: u32, side: usize) -> Vec<DVec3> {
         let mesh = tessellate(&[*patch], n, Faces::Quads).unwrap();
         let m = n as usize;

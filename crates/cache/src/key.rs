@@ -37,8 +37,8 @@ pub(crate) struct Key(pub(crate) Hash);
 pub(crate) struct State(pub(crate) Hash);
 
 impl Ingredients {
-    /// Returns the ingredients of a step, from which the key of the step is computed. Returns `None` if the recipe
-    /// contains an error in this step, so that the step could not be read.
+    /// Returns the ingredients of a step, from which the key of the step is computed. Returns `None` if the step could
+    /// not be read because it contains an error.
     pub(crate) fn of(step: &RecipeStep, program: &str, budget: u64, before: State) -> Option<Self> {
         let operation = step.step.as_ref()?;
         Some(Self {
@@ -60,8 +60,8 @@ impl Ingredients {
 }
 
 impl Key {
-    /// Returns the state of the scene after the step with this key. `read` has the files that the step read or looked
-    /// for.
+    /// Returns the state of the scene after the step with this key. `read` contains the files that the step read or
+    /// looked for.
     pub(crate) fn after(self, read: &[FileState]) -> State {
         let files: Vec<_> = read
             .iter()

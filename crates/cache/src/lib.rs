@@ -26,11 +26,11 @@
 //! concurrent nor killed processes leave incomplete files, and the cache needs no locks. If the folder cannot be
 //! written, the problem is reported once, and the run continues without storing anything.
 //!
-//! **What is stored.** The record of each completed step is stored, unless the state of an input file of the step, or
-//! of the scene before the step, is unknown. Removed elements leave gaps in the arrays of a mesh. Storing a mesh would
-//! close its gaps and renumber its elements, so a scene with gaps in its meshes is not stored. All other scenes, and
-//! all output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored if storing it
-//! takes at most as long as the steps that ran since a scene was last stored or loaded. The time for storing is
+//! **What is stored.** The record of each completed step is stored if the states of the input files of the step and of
+//! the scene before the step are known. Removed elements leave gaps in the arrays of a mesh. Storing a mesh would close
+//! its gaps and renumber its elements, so a scene with gaps in its meshes is not stored. All other scenes, and all
+//! output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored if storing it
+//! takes no longer than the steps that ran after the last storing or loading of a scene. The time for storing is
 //! estimated from [`BYTES_PER_SECOND`]. Therefore, even a run that stores all of its results takes at most about twice
 //! as long as a run without the cache. If a scene without gaps is not stored, computing the scene again in a later run
 //! takes at most as long as storing it would have taken. Larger output files are stored if storing them takes at most

@@ -39,8 +39,8 @@ pub(crate) struct Session<'a> {
     history: History,
     /// One entry for the start of the run, and one entry for each completed step.
     positions: Vec<Position>,
-    /// The ingredients (the data from which the key is computed) of the step that was looked up last, if that step must
-    /// run.
+    /// If the step that was looked up last must run: the ingredients of this step (the data from which its key is
+    /// computed).
     ingredients: Option<Ingredients>,
     /// The time that steps have taken since a scene was last stored or loaded.
     unstored_time: Duration,

@@ -21,7 +21,7 @@ use recipe::{Outcome, Reader, RerunReason, Settings, Silent, Violation};
 use self::operations::{registry, steps};
 use crate::{Cache, Caching};
 
-/// Reads a file that contains a number n as a grid of n faces.
+/// Reads a file that contains a number n, and returns a grid of n faces.
 struct GridReader;
 
 impl Reader for GridReader {

@@ -6,7 +6,7 @@ use recipe::{Diagnostic, LineIndex, Source, StepDone};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-/// A diagnostic in the form in which it is written as JSON. A field without a value is written as `null`.
+/// The fields of a diagnostic in JSON. A field without a value is written as `null`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Problem {
     /// The severity of the problem: `error` or `warning`.
@@ -15,7 +15,7 @@ pub struct Problem {
     pub file: Option<String>,
     /// The line in the file, counted from 1.
     pub line: Option<usize>,
-    /// The column in the line in characters, counted from 1.
+    /// The column: the index of a character in the line, counted from 1.
     pub column: Option<usize>,
     /// The message: one line that starts in lower case and has no final period.
     pub message: String,
@@ -23,8 +23,7 @@ pub struct Problem {
     pub help: Option<String>,
 }
 
-/// Converts diagnostics to the form in which they are written as JSON. `sources` contains the texts that the
-/// diagnostics refer to.
+/// Converts diagnostics to their fields in JSON. `sources` contains the texts that the diagnostics refer to.
 pub fn problems(diagnostics: &[Diagnostic], sources: &[Source]) -> Vec<Problem> {
     let lines: Vec<LineIndex> = sources.iter().map(|s| LineIndex::new(&s.text)).collect();
     let problem = |d: &Diagnostic| {
@@ -56,8 +55,8 @@ pub fn losses(losses: &[Loss]) -> Vec<Json> {
 
 /// Returns the event `done` of a step. The event contains the label of the step, the numbers of elements in the scene
 /// after the step, the report and the time of the step, and whether the result was taken from the cache. The argument
-/// `number` is the index of the step, counted from 0. The field `number` of the event is 1 larger, because events count
-/// steps from 1.
+/// `number` is the index of the step, counted from 0. The field `number` of the event is this index plus 1, because
+/// events count steps from 1.
 pub fn step_done(number: usize, done: &StepDone) -> Json {
     json!({
         "event": "done",
@@ -78,8 +77,8 @@ pub fn step_done(number: usize, done: &StepDone) -> Json {
     })
 }
 
-/// Converts a change to JSON. The change was made to a mesh while its file was read. The field `text` names only some
-/// of the changed elements. The field `vertices`, `edges` or `faces` lists all of them.
+/// Converts a change of a mesh to JSON. The change was made while the file of the mesh was read. The field `text` names
+/// only some of the changed elements. The field `vertices`, `edges` or `faces` lists all of them.
 fn change(change: &ReadingChange) -> Json {
     let mut json = json!({
         "code": change.code, "count": change.count, "text": change.message,

@@ -17,8 +17,8 @@ pub type StepKey = [u8; 32];
 pub struct StepKeys {
     /// The key of each step.
     pub steps: Vec<StepKey>,
-    /// The key of each expectation: a hash of the expectation, of the key of the step after which the expectation is
-    /// checked, and of the lengths and modification times of all input files.
+    /// The key of each expectation. The key is a hash of three parts: the expectation, the key of the step after which
+    /// the expectation is checked, and the lengths and modification times of all input files.
     pub expectations: Vec<StepKey>,
     /// The key before the first step: a hash of the memory budget.
     pub start: StepKey,

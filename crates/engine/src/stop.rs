@@ -31,8 +31,8 @@ pub struct UnknownStep {
 impl Loaded {
     /// Removes the steps after the stopping point, and all expectations of the recipe. Returns the label of the step
     /// that [`Stop::before`] names. If [`Stop::before`] names a call, returns the label of the first step of this call.
-    /// label seeds the random choices of that step. If [`Stop::before`] is `None`, returns an empty string.
-    /// This label seeds the random choices of that step. If [`Stop::before`] is `None`, returns an empty string.
+    /// The returned label seeds the random choices of the step. If [`Stop::before`] is `None`, returns an empty string.
+    ///
     /// # Errors
     ///
     /// Returns [`UnknownStep`] if no step or call has the id or label.

@@ -17,7 +17,7 @@ use crate::{
 
 /// A source of the long arrays that [`Scene::encode_with_separate_arrays`] separated from the canonical form.
 pub trait ArraySource {
-    /// Returns the size of the next array in bytes; `None` if there is none.
+    /// Returns the size of the next array in bytes; `None` if no array is left.
     fn next_len(&self) -> Option<u64>;
 
     /// Reads the next array into `bytes`, which must be as long as the array.
@@ -241,7 +241,7 @@ impl<'a> Decoder<'a> {
         if m.base_color[3] < 1.0 {
             m.alpha = AlphaMode::Blend;
         }
-        // The marker `MORE` follows only if the material has properties in addition to those that were read above.
+        // The marker `MORE` follows only if other properties of the material were written, too.
         if !self.rest.starts_with(&MORE.to_le_bytes()) {
             return Ok(m);
         }

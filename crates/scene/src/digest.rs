@@ -4,14 +4,13 @@
 //! written with all their bits. Two scenes have the same canonical form if and only if they have the same graph and the
 //! same objects in the same order, bit for bit. Removed elements of meshes are not written.
 //!
-//! If the scene has a graph, the graph follows the objects. A scene without a graph has the same form as in the
-//! first version of the canonical form, which had no graphs.
+//! If the scene has a graph, the graph follows the objects. The first version of the form had no graphs. A scene
+//! without a graph is still written as in the first version.
 //!
 //! A material is written as its name, base color, metalness, roughness and the path of its base color texture. Other
 //! properties are written only if they differ from their defaults: the marker [`MORE`] comes first, then each property
-//! with its name. If all of these other properties have their defaults, the material has the same form as in the first
-//! version of the canonical form. The extras of a material and the names of a texture follow after a second marker, and
-//! only if they are present.
+//! with its name. Without these other properties, a material is still written as in the first version of the form. The
+//! extras of a material and the names of a texture follow after a second marker, and only if they are present.
 
 use std::fmt;
 
@@ -133,7 +132,7 @@ pub(crate) const TEXTURES: [NamedTexture; 5] = [
     ("emissive texture", |m| &mut m.emissive_texture),
 ];
 
-/// The names of the edit rules of attributes in the canonical form.
+/// The edit rules of attributes, with their names in the canonical form.
 pub(crate) const RULES: [(&str, Rule); 4] = [
     ("interpolate", Rule::Interpolate),
     ("normal", Rule::Normal),

@@ -190,7 +190,7 @@ impl Scene {
     }
 
     /// Removes an object and returns it. The nodes that reference the object are removed, too. A node is kept if it
-    /// still has children, has a camera or a light, or is a joint of a skin or the root of such joints.
+    /// still has children, has a camera or a light, or belongs to a skin (as a joint or as the root of the joints).
     pub fn remove(&mut self, name: &str) -> Option<Object> {
         let index = self.objects.iter().position(|o| o.name == name)?;
         self.unplace(name);
@@ -198,8 +198,8 @@ impl Scene {
     }
 
     /// Removes an object from all nodes, so that the coordinates of the object are in scene space. The nodes that
-    /// referenced the object are removed, too. A node is kept if it still has children, has a camera or a light, or is
-    /// a joint of a skin or the root of such joints.
+    /// referenced the object are removed, too. A node is kept if it still has children, has a camera or a light, or
+    /// belongs to a skin (as a joint or as the root of the joints).
     pub fn unplace(&mut self, name: &str) {
         if !self.graph.is_empty() {
             self.graph_mut().remove_object(name);

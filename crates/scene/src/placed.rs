@@ -16,8 +16,8 @@ pub struct Instance<'s> {
     /// The object that is placed.
     pub object: &'s Object,
     /// A name that is unique among all instances. The only instance of an object has the name of the object. If an
-    /// object has several instances, each has the name of its node (or of the object, if the node has no name),
-    /// followed by a number if necessary.
+    /// object has several instances, each has the name of its node (or of the object, if the node has no name). If this
+    /// name is not unique, a number is appended.
     pub name: String,
     /// The affine map from the space of the object to scene space. For a skinned mesh, this is the map of the first
     /// joint.
@@ -109,7 +109,7 @@ impl Scene {
     }
 
     /// Returns a scene without nodes, in which each instance is an object with points in scene space. The returned
-    /// scene has no cameras, lights, skins and animations.
+    /// scene has no cameras, lights, skins or animations.
     pub fn placed(&self) -> Cow<'_, Self> {
         if self.graph().is_empty() {
             return Cow::Borrowed(self);

@@ -53,7 +53,8 @@ impl Pose {
         pose
     }
 
-    /// Whether joints or morph targets change the points of a mesh, apart from the placement of its node.
+    /// Whether joints or morph targets change the points of a mesh. The placement of the node does not count as a
+    /// change.
     pub(crate) fn deforms(&self) -> bool {
         self.joints.is_some() || self.weights.iter().any(|&w| w != 0.0)
     }
@@ -277,8 +278,8 @@ impl Pose {
     }
 }
 
-/// Adds the weighted changes to an old value. For the domain of a change, `place` returns the index of the value that
-/// is added.
+/// Adds the weighted changes to an old value. `place` takes the domain of a change, and returns the index of the value
+/// to add.
 fn plus_changes<T>(old: T, changes: &[Change], place: impl Fn(Domain) -> usize) -> T
 where
     T: Value + Add<Output = T>,

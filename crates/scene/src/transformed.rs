@@ -51,7 +51,7 @@ impl LinearMap {
     }
 }
 
-/// Transforms each vertex of a mesh by its own map. If `is_mirror`, the faces are reversed.
+/// Transforms each vertex of a mesh by its own map. If `is_mirror` is true, the faces are reversed.
 pub(crate) fn mapped(
     mut mesh: Mesh,
     is_mirror: bool,

@@ -25,8 +25,8 @@ impl<'s> TemporaryFolder<'s> {
         let missing =
             missing.take_while(|folder| !folder.as_os_str().is_empty() && !store.exists(folder));
         let parents = missing.map(Path::to_path_buf).collect();
-        // Another process can remove the folder `inside` while this folder is empty. If this makes the first attempt
-        // fail, the second attempt also creates the folder `inside` again.
+        // Another process can remove the folder `inside` while this folder is empty. If the first attempt fails for
+        // this reason, the second attempt also creates the folder `inside` again.
         let path = store
             .make_temporary(inside)
             .or_else(|_| store.make_temporary(inside))?;

@@ -30,7 +30,7 @@ const HALO: Color = Color([255, 255, 255, 220]);
 /// The opacity of marks where a surface hides them.
 const HIDDEN: f64 = 0.4;
 /// The overview marks a location with a dot if the location is too small to see. If there are more locations than this
-/// maximum, there are no such dots.
+/// maximum, the overview has no dots.
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;

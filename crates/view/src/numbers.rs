@@ -59,7 +59,7 @@ pub enum Quantity {
     Attribute {
         /// The name of the attribute.
         name: String,
-        /// The index of the component of a vector, which starts at 0. If omitted, the length of the vector is used.
+        /// The index of the component of a vector, counted from 0. If omitted, the length of the vector is used.
         #[serde(default)]
         #[schemars(range(max = 3))]
         component: Option<u32>,

@@ -63,7 +63,7 @@ impl Default for SheetStyle {
 
 impl SheetStyle {
     /// Returns the style for images of this size. If the shorter side of an image is longer than 560 pixels, captions
-    /// and gaps grow with this side. So captions stay readable when a sheet of large images is scaled down.
+    /// and gaps grow with this side. Captions therefore stay readable when a sheet of large images is scaled down.
     #[must_use]
     pub fn scaled_to(self, [width, height]: [u32; 2]) -> Self {
         let side = width.min(height);

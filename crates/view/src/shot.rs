@@ -80,7 +80,7 @@ impl<'s> Subject<'s> {
     }
 }
 
-/// The data of a scene that determine a view and a color range in which the whole scene fits.
+/// The extent of a scene: the data that determine a view and a color range into which the whole scene fits.
 ///
 /// With the [joined](Self::join) extents of several scenes, each scene can be [drawn](Shot::draw) separately. The
 /// pictures then have the same view and scale, and equal numbers have equal colors.

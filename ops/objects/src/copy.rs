@@ -11,8 +11,8 @@ use scene::Object;
 /// Copies an object, with its attributes and materials, under a new name.
 ///
 /// The copy is added after all other objects. The elements of the copy have the same ids as in the original. If nodes
-/// of the scene (as in glTF) place the object, each of these nodes gets a sibling node that places the copy at the same
-/// location.
+/// of the scene (as in glTF) place the object, each of these nodes gets a sibling node. The sibling node places the
+/// copy at the same location.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Copy {

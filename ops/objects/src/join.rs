@@ -27,8 +27,8 @@ use crate::join::skin::{KeptSkin, LostSkin};
 /// `objects`, and the other meshes are removed. If nodes of the scene (as in glTF) place a mesh, the result contains a
 /// copy of the mesh for each of these nodes. The points of each copy are transformed by the transform of the node. The
 /// result keeps a skin only if all skinned parts have the same skin and each of them has exactly one node. In this
-/// case, the result also keeps the node of the first skinned part, and parts without a skin follow the first joint of
-/// the skin. If no skin is kept, skinned parts are joined in their current pose, and the result has no node, because
+/// case, the result also keeps the node of the first skinned part. Parts without a skin then follow the first joint of
+/// the skin. If no skin is kept, skinned parts are joined in their current pose. The result then has no node, because
 /// its points are already at their positions in the scene. The names and default weights of morph targets are kept if
 /// they are the same in all parts that have morph targets.
 ///

@@ -15,10 +15,11 @@ use scene::{Geometry, Node, Object, Placement, transformed};
 /// Places copies of an object on a surface, at random positions that are evenly spread.
 ///
 /// Exactly `count` points are chosen so that no two of them are close together (Yuksel, "Sample Elimination for
-/// Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so copies
-/// need almost no memory, and almost no space in `.gltf`, `.glb` and `.mws` files. The node of each copy moves the
-/// origin of the object to one of the points. To make one mesh of all copies, use `Join` in a later step. If no node
-/// placed the object before the step, the object is no longer visible at its original position, only at the points.
+/// Generating Poisson Disk Sample Sets", 2015). Each copy is an instance: a node that references the object. Copies
+/// therefore need almost no memory, and almost no space in `.gltf`, `.glb` and `.mws` files. The node of each copy
+/// moves the origin of the object to one of the points. To make one mesh of all copies, use `Join` in a later step. If
+/// no node placed the object before the step, the object disappears from its original position and is visible only at
+/// the points.
 ///
 /// Without `object`, the result is a mesh whose vertices are the chosen points. The mesh has no faces. Its vertex
 /// normals are the normals of the surface at the points.

@@ -86,8 +86,7 @@ pub struct Mark {
     /// The color.
     #[serde(default = "highlight_color")]
     pub color: Color,
-    /// The width of edges and the diameter of vertices, in pixels. If omitted, the defaults are those of
-    /// `highlight_width`.
+    /// The width of edges and the diameter of vertices, in pixels. The defaults are the same as for `highlight_width`.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub width: Option<f64>,
@@ -197,9 +196,9 @@ impl Picture {
     /// Draws scenes side by side at the same scale. Each scene has a caption, which can be empty. Returns one image, or
     /// the images of a turntable, and notes about parts of the scene that are not drawn.
     ///
-    /// If `within` is given, [`Camera::Fit`] shows the region of this [`Extent`] instead of only the drawn scenes, and
-    /// quantities are colored with the color range of the extent. The images then have no legend, because the caller
-    /// draws one [common legend](Extent::legend) for all scenes.
+    /// If the [`Extent`] `within` is given, [`Camera::Fit`] shows the region of this extent instead of only the drawn
+    /// scenes. Quantities are then colored with the color range of the extent. The images then have no legend, because
+    /// the caller draws one [common legend](Extent::legend) for all scenes.
     ///
     /// # Errors
     ///

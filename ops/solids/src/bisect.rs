@@ -15,16 +15,16 @@ use op::prelude::*;
 ///
 /// Every edge that crosses the plane gets a new vertex at the crossing point. Every face that crosses the plane is cut
 /// along the plane. A concave face can be cut in several places. A vertex near the plane is treated as if it were on
-/// the plane, and is not moved. Near means a distance from the plane of at most 1e-9 times the longest side of the
-/// bounding box, or at most 1e-14 times the largest absolute coordinate. Every edge has two half-edges. When an edge is
-/// cut, the part at the start of the half-edge with the lower id keeps the id of the edge. When a face is cut, the part
-/// with the first corner keeps the id of the face. New elements get the highest ids. Where an edge crosses the plane,
-/// attributes are interpolated. At a seam (an edge whose corner values, such as UVs, differ between its two sides), the
-/// corner values of each side are interpolated separately.
+/// the plane, and is not moved. A vertex is near if its distance from the plane is at most 1e-9 times the longest side
+/// of the bounding box. A distance of at most 1e-14 times the largest absolute coordinate also counts as near. Every
+/// edge has two half-edges. When an edge is cut, the part at the start of the half-edge with the lower id keeps the id
+/// of the edge. When a face is cut, the part with the first corner keeps the id of the face. New elements get the
+/// highest ids. Where an edge crosses the plane, attributes are interpolated. At a seam (an edge whose corner values,
+/// such as UVs, differ between its two sides), the corner values of each side are interpolated separately.
 ///
 /// With `keep: Front`, the part of the mesh behind the plane is removed. With `keep: Back`, the part in front of the
-/// plane is removed. A face that lies in the plane belongs to the back if its normal points to the front, because the
-/// face then closes the solid behind the plane. Vertices that are left without a face are removed. If the remaining
+/// plane is removed. A face can lie in the plane. If its normal points to the front, the face belongs to the back,
+/// because it closes the solid behind the plane. Vertices that are left without a face are removed. If the remaining
 /// faces around a vertex form several fans (groups of faces connected across edges), each fan gets a separate copy of
 /// the vertex. No faces are added to close the cut. To close the cut, use `FillHoles` in a later step.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

@@ -13,14 +13,15 @@
 //! ```
 //!
 //! Each level adds a vertex on every edge and connects the three new vertices of each triangle. Old vertices do not
-//! move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is not 6. A new
-//! vertex on an edge with an extraordinary end has a special mask: neighbor j of the extraordinary end has the weight
-//! (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n. For valence 3 and valence 4, other weights are used. If both ends of an edge
-//! are extraordinary, the mask of each end is applied, and the new vertex is the mean of the two results. The scheme is
-//! the modified butterfly scheme of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary
-//! Topology", 1996. The modified scheme extends the scheme of Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme
-//! for Surface Interpolation with Tension Control", 1990. The limit surface has a continuous tangent plane. The surface
-//! can ripple where a coarse mesh bends sharply, and it can leave the convex hull of the mesh.
+//! move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is not 6. If an
+//! end of an edge is extraordinary, the new vertex on this edge has a special mask. In this mask, neighbor j of the
+//! extraordinary end has the weight (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n. For valence 3 and valence 4, other weights are
+//! used. If both ends of an edge are extraordinary, the mask of each end is applied, and the new vertex is the mean of
+//! the two results. The scheme is the modified butterfly scheme of Zorin, Schröder and Sweldens, "Interpolating
+//! Subdivision for Meshes with Arbitrary Topology", 1996. The modified scheme extends the scheme of Dyn, Levin and
+//! Gregory, "A Butterfly Subdivision Scheme for Surface Interpolation with Tension Control", 1990. The limit surface
+//! has a continuous tangent plane. The surface can ripple where a coarse mesh bends sharply, and it can leave the
+//! convex hull of the mesh.
 //!
 //! The crate `subdivision` implements all subdivision schemes.
 

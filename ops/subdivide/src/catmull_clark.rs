@@ -46,8 +46,8 @@ use crate::step::{Step, Until};
 ///
 /// Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner values
 /// are smoothed as the parameter `face_varying` specifies, and seams are kept. When an edge or a face is split, its
-/// parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong. An
-/// edge or a vertex to which `Crease` gave the sharpness s stays sharp for s levels.
+/// parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong. If an
+/// edge or a vertex has the sharpness s (see `Crease`), it stays sharp for s levels.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CatmullClark {

@@ -43,8 +43,8 @@ use crate::step::{Step, Until};
 ///
 /// Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner values
 /// are smoothed as the parameter `face_varying` specifies, and seams are kept. When an edge or a triangle is split, its
-/// parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong. An
-/// edge or a vertex to which `Crease` gave the sharpness s stays sharp for s levels.
+/// parts copy its attribute values, such as tags and materials. Normals are dropped, because they would be wrong. If an
+/// edge or a vertex has the sharpness s (see `Crease`), it stays sharp for s levels.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {
@@ -72,9 +72,10 @@ pub struct LoopSubdivide {
     /// this surface.
     #[serde(default)]
     pub to_limit: bool,
-    /// The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or four, so that
-    /// no vertex lies in the middle of an edge of a neighboring triangle. The surface outside the refined faces does
-    /// not move. The documentation of the Rust function `subdivision::refine_faces` describes the ids of new elements.
+    /// The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or four. Without
+    /// these cuts, new vertices would lie in the middle of edges of these triangles. The surface outside the refined
+    /// faces does not move. The documentation of the Rust function `subdivision::refine_faces` describes the ids of new
+    /// elements.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

@@ -297,8 +297,8 @@ fn planned_size(plan: &MeshPlan) -> Size<Planned> {
 fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
     match scheme {
         Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => Range::exactly(4),
-        // The number of corners of the new face at an old vertex is the number of edges of the vertex, which can be any
-        // number.
+        // The new face at an old vertex has one corner for each edge of the vertex. A vertex can have any number of
+        // edges.
         Scheme::DooSabin => Range::between(3, u64::MAX),
         _ => degrees,
     }

@@ -27,8 +27,8 @@ use crate::simplify::{
 pub struct Lods {
     /// The name of the object.
     pub from: String,
-    /// The number of faces of each copy, as a fraction of the number of faces of the original object. Each fraction
-    /// must be smaller than the previous fraction in the list.
+    /// For each copy, the number of its faces divided by the number of faces of the original object. Each fraction must
+    /// be smaller than the previous fraction in the list.
     pub ratios: Vec<Fraction>,
     /// The text before the number in the names of the copies. If omitted, the name of the object followed by `_lod`.
     #[serde(default)]

@@ -30,10 +30,10 @@ use op::prelude::*;
 ///   different tags or materials, tagged edges, creases, and the edges that `features` selects. A line can lose
 ///   vertices, but its ends, and the vertices where lines meet, keep their exact positions.
 /// - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
-///   (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
-///   triangle is turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the
-///   original. The vertex attributes that `Measure` stores also influence the result, and the report lists their names.
-///   To avoid this influence, use `Measure` after this step.
+///   (Hoppe, 1999). New vertices get the values that fit best. Values are never mixed across a line, and no triangle is
+///   turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the original. The
+///   vertex attributes that `Measure` stores also influence the result, and the report lists their names. To avoid this
+///   influence, use `Measure` after this step.
 /// - Vertex tags: vertices with different tags, different sharpness, or different values of a whole-number attribute
 ///   are not merged.
 ///
@@ -43,7 +43,7 @@ use op::prelude::*;
 ///
 /// No collapse turns a triangle over. Remaining elements get new ids, in the order of their old ids. If `error` is not
 /// given and the number of faces cannot be reached, the step is refused (reason: `Unreached`), and the message states
-/// why. With `on_refusal: Skip`, the step is not refused: it simplifies the mesh as far as it can.
+/// why. With `on_refusal: Skip`, the step instead simplifies the mesh as far as it can.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Simplify {

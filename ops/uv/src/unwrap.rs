@@ -25,7 +25,7 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 /// are distorted too much. This distortion turns a small circle on the surface into an ellipse in the texture. On at
 /// least 95 % of the area of a chart, the longer axis of this ellipse is at most 1.15 times the shorter axis. All
 /// charts of a mesh have the same scale, and no chart is mirrored. No polygon is divided between charts. Each mesh gets
-/// its own page, on which the charts are arranged as by `PackUvs`.
+/// its own page. The charts are arranged on the page in the same way as by `PackUvs`.
 ///
 /// The coordinates are written to the corner attribute that the parameter `uv` names. If this attribute already exists,
 /// it is replaced. Edges at which charts meet become seams of the texture coordinates. Positions, faces and other

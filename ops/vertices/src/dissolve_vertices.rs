@@ -21,9 +21,9 @@ use op::prelude::*;
 ///
 /// A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring vertex
 /// would be left with a single edge, because this edge would end inside a face. A removal is also refused if a face
-/// would contain a vertex twice or have fewer than three corners, or if a new edge would join two vertices that an edge
-/// already joins. A vertex on a seam (an edge whose corner values, such as UVs, differ between its two sides) is
-/// removed only if `seams` is `Drop`.
+/// would contain a vertex twice or have fewer than three corners. A removal is also refused if it would join two
+/// vertices that an edge already joins. A vertex on a seam (an edge whose corner values, such as UVs, differ between
+/// its two sides) is removed only if `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveVertices {

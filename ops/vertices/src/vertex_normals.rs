@@ -10,9 +10,9 @@
 //!     \ i /   \ h /
 //! ```
 //!
-//! n(f) is the unit normal of f. The area of f is the length of its area vector, which is half the sum of the cross
-//! products of consecutive corners (Newell's method). The area vector is also defined for polygons that are not flat.
-//! With the weight `Area`, N is the sum of the area vectors.
+//! n(f) is the unit normal of f. The area vector of f is half the sum of the cross products of consecutive corners
+//! (Newell's method), and the area of f is the length of this vector. The area vector is also defined for polygons that
+//! are not flat. With the weight `Area`, N is the sum of the area vectors.
 //!
 //! The best weight depends on the surface that the mesh approximates. Max, "Weights for Computing Vertex Normals
 //! from Facet Normals", 1999, compares the weights. With `Angle`, the normals do not depend on how faces are
@@ -29,7 +29,7 @@ pub use gather::normals;
 ///
 /// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are
 /// removed, because they would contradict the vertex normals. The normal of a vertex is the zero vector if the vertex
-/// has no faces or only zero-area faces, or if the normals of its faces cancel each other out. The report counts these
+/// has no faces, if its faces have zero area, or if their normals cancel each other out. The report counts these
 /// vertices.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

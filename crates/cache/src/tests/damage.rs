@@ -20,7 +20,7 @@ pub(super) fn all_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Damages a file. The second argument has the contents of all files of the cache.
+/// Damages a file. The second argument contains the contents of all files of the cache.
 type Damage = fn(&Path, &[Vec<u8>]);
 
 /// Returns a recipe whose scene is so large that its arrays are stored as blobs.
@@ -58,7 +58,7 @@ fn damage_to_any_file_is_noticed() {
         |path, others| fs::write(path, &others[0]).unwrap(),
         |path, others| fs::write(path, others.last().unwrap()).unwrap(),
     ];
-    // The recipe with an edited last step needs the scene before this step, which can be damaged.
+    // The recipe with an edited last step needs the scene before this step. The files of this scene can be damaged.
     let edited = text.replace("Lift(by: 2)", "Lift(by: 3)");
     let plain = [&text, &edited].map(|text| place.run_with(text, None, "plain"));
     for damage in damages {

@@ -36,7 +36,7 @@ fn recipe() -> impl Strategy<Value = String> {
             .into_iter()
             .filter(|step| !step.contains("Write") || !std::mem::replace(&mut written, true))
             .scan(false, |has_id, step| {
-                // Ids of steps must be unique, so of several steps with the same id, only the first is kept.
+                // Ids of steps must be unique. If several steps have the same id, only the first of them is kept.
                 let is_named = step.contains("id:");
                 Some((
                     is_named && std::mem::replace(has_id, *has_id || is_named),

@@ -9,7 +9,7 @@ use store::{Entry, NewFile, StoreError};
 use super::*;
 
 /// A store in memory in which one call fails: the call with the number `fails_at`, counted from 1. Calls that remove a
-/// folder are not counted and never fail, because the removal of temporary folders is best effort.
+/// folder are not counted and never fail, because errors in the removal of temporary folders are ignored.
 #[derive(Debug, Default)]
 struct Faulty {
     files: Memory,

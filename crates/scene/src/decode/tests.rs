@@ -153,7 +153,7 @@ fn a_length_that_exceeds_the_memory_is_refused() {
         Scene::decode(&bytes, usize::MAX, &mut NoArrays),
         Err(DecodeError::Truncated)
     );
-    // If the form declares a length for the first array of a mesh that is too large, decoding also fails.
+    // If the declared length of the first array of a mesh is too large, decoding also fails.
     let mut scene = Scene::new();
     scene.insert(Object::mesh("a", shapes::cube())).unwrap();
     let (mut rest, mut arrays) = encoded_with_separate_arrays(&scene, 1);
@@ -163,8 +163,8 @@ fn a_length_that_exceeds_the_memory_is_refused() {
     assert!(Scene::decode(&rest, 1, &mut arrays).is_err());
 }
 
-/// Changes the arrays of a grid, and tries to create a mesh from the changed arrays. Returns the defect that makes this
-/// impossible.
+/// Changes the arrays of a grid, and tries to create a mesh from the changed arrays. Returns the defect of the arrays
+/// if this fails.
 fn defect_after(change: impl FnOnce(&mut Connectivity, &mut Vec<DVec3>)) -> Option<Defect> {
     let mesh = shapes::grid(2, 2);
     let (mut c, mut positions) = (mesh.connectivity().clone(), mesh.positions().to_vec());

@@ -4,9 +4,9 @@ use super::{AnimatedProperty, Graph, MeshLabel, Node};
 
 impl Graph {
     /// Removes an object from all nodes. The nodes that referenced the object are removed, with two exceptions. A node
-    /// is kept if it has a camera, a light or remaining children. A node is also kept if it is a joint of a skin or the
-    /// root of such joints. The channels that animate a removed node are removed too. The remaining nodes keep their
-    /// order.
+    /// is kept if it has a camera, a light or remaining children. A node is also kept if it belongs to a skin (as a
+    /// joint or as the root of the joints). The channels that animate a removed node are removed too. The remaining
+    /// nodes keep their order.
     pub fn remove_object(&mut self, object: &str) {
         self.labels.remove(object);
         let mut n_children = vec![0_usize; self.nodes.len()];

@@ -1,6 +1,6 @@
 //! The canonical form of a graph.
 //!
-//! A scene whose graph is empty has the same form as in the first version of the canonical form, which had no graphs.
+//! The first version of the form had no graphs. A scene with an empty graph is still written as in the first version.
 
 use std::collections::BTreeMap;
 

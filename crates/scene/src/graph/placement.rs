@@ -32,7 +32,7 @@ impl Placement {
         scale: [1.0; 3],
     };
 
-    /// To check the split of a map into scale, rotation and translation, these parts are composed to a matrix again.
+    /// To check the split of a map into scale, rotation and translation, these parts are composed into a matrix again.
     /// `TOLERANCE` is the largest allowed difference from the matrix of the map, relative to the largest number in that
     /// matrix.
     const TOLERANCE: f64 = 1e-12;

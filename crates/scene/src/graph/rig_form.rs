@@ -1,5 +1,6 @@
-//! The canonical form of skins, morph weights and animations. These parts follow the other parts of a graph. If a graph
-//! has none of these parts, its form is the same as in earlier versions, which did not support them.
+//! The canonical form of skins, morph weights and animations. These parts follow the other parts of a graph. Earlier
+//! versions of the form did not have these parts. A graph without these parts is still written as in the earlier
+//! versions.
 
 use super::rig::{AnimatedProperty, Animation, AnimationSampler, Channel, Interpolation, Skin};
 use super::{Graph, MeshLabel};

@@ -27,7 +27,7 @@ impl Transform {
         cx: &Context,
     ) -> Result<Report, OpError> {
         let graph = scene.graph();
-        // For each node: the map, in scene space, by which the node must move.
+        // The map, in scene space, that each node must be moved by.
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
         let mut n_points = 0;
         let nodes_of = graph.nodes_of_objects();
@@ -98,7 +98,7 @@ impl Transform {
             maps[i] = Some(affine);
             for &joint in node.skin.iter().flat_map(|&skin| &graph.skins[skin].joints) {
                 // If the mesh has no weights of joints, the joints do not move. The plan does not always know whether
-                // the mesh has such weights.
+                // the mesh has weights.
                 (maps[joint], may_be_skinned) = (Some(affine), true);
             }
         }
@@ -111,8 +111,8 @@ impl Transform {
             result = move_by(graph, &maps, map.only_moves());
         });
         let error = result.err()?;
-        // With `About::Center`, the translations of the run differ from those of the plan. An overflow in the plan
-        // therefore does not prove that a coordinate overflows in the run.
+        // With `About::Center`, the translations in the plan differ from the translations in the run. An overflow in
+        // the plan therefore does not prove that a coordinate overflows in the run.
         let is_certain = self.about != About::Center || matches!(error, OpError::Object(_));
         (is_certain && !may_be_skinned).then(|| Problem::error(error.to_string()))
     }
@@ -157,7 +157,7 @@ fn move_by(graph: &mut Graph, maps: &[Option<DAffine3>], only_moves: bool) -> Re
     let nodes = graph.nodes();
     let mut placements: Vec<Placement> = nodes.iter().map(|node| node.placement).collect();
     let mut new: Vec<DAffine3> = Vec::with_capacity(nodes.len());
-    // For each node: the map, in scene space, by which the node has moved.
+    // The map, in scene space, that each node was moved by.
     let mut moved: Vec<Option<DAffine3>> = Vec::with_capacity(nodes.len());
     for (i, node) in nodes.iter().enumerate() {
         let of_parent = node.parent.and_then(|parent| moved[parent]);

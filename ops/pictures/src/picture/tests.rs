@@ -278,8 +278,8 @@ fn scenes_drawn_separately_within_an_extent_look_as_if_drawn_together() {
             .draw(&[(&cube, "")], Some(&extent), &mut cx())
             .unwrap()
             .0;
-        // With the camera `Fit`, the cube appears smaller if the picture shows the extent of both objects than if it
-        // shows only the cube.
+        // With the camera `Fit`, the cube appears smaller in a picture of the extent of both objects than in a picture
+        // of the cube alone.
         let alone = picture.draw(&[(&cube, "")], None, &mut cx()).unwrap().0;
         assert_eq!(one != alone, !fields.contains("LookAt"), "{fields}");
         if picture.views.is_empty() && picture.color_by.is_none() {

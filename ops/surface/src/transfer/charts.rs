@@ -16,17 +16,17 @@ use geometry::surface_index::{SurfaceIndex, nearest_on_triangle, triangle_distan
 use mesh::{DVec3, Domain, FaceId, HalfEdgeId, Mesh, Values};
 use op::{Cancelled, Progress};
 
-/// Corners are moved toward the center of their face by this fraction of their distance from the center. If a corner
-/// lies at a seam, the nearest face of the source is then on the same side of the seam as the face of the corner.
+/// Corners are moved toward the center of their face by this fraction of their distance from the center. The nearest
+/// face of the source to a corner at a seam is then on the same side of the seam as the face of the corner.
 const INSET: f64 = 1e-6;
 
-/// The largest number of pairs of triangles for which the distance between two polygons is computed. With more pairs,
-/// the computation would take too long, so the distance from the center of one polygon to the other polygon is used
-/// instead.
+/// The distance between two polygons is computed if they have at most this number of pairs of triangles. With more
+/// pairs, the computation would take too long, so the distance from the center of one polygon to the other polygon is
+/// used instead.
 const MAX_PAIRS: usize = 4096;
 
-/// The charts of an attribute of corners. The faces of a chart are connected by edges at which the values of the
-/// corners are the same on both sides.
+/// The charts of an attribute of corners. A chart is a set of connected faces. Two faces are connected if the values of
+/// their corners are the same at the common edge.
 pub(super) struct Charts<'a> {
     mesh: &'a Mesh,
     values: &'a Values,
@@ -146,13 +146,13 @@ impl<'a> Charts<'a> {
         Ok(chart)
     }
 
-    /// Returns the faces of `chart` that are on the same side of its seams as the center of the face `f` of the target.
-    /// Returns `None` if the chart has no seam near `f`. `farthest` is the largest distance of a corner or the center
-    /// of `f` from the source.
+    /// Returns the faces of `chart` that no seam separates from the center of the target face `f`. Returns `None` if
+    /// the chart has no seam near `f`. `farthest` is the largest distance of a corner or the center of `f` from the
+    /// source.
     ///
-    /// First finds the part of the source under the face: the nearest faces of the source that connect the center of
-    /// the face with all of its corners. Then returns the faces of this part that are connected with the center without
-    /// crossing a seam.
+    /// First finds the part of the source under the face. This part consists of the nearest faces that connect the
+    /// center of the face with all of its corners. Then returns the faces of this part that are connected with the
+    /// center without crossing a seam.
     pub(super) fn side_under(
         &mut self,
         chart: usize,
@@ -207,8 +207,8 @@ impl<'a> Charts<'a> {
     }
 
     /// Returns the faces that are connected with `start` and are at most a distance d away from `triangles`.
-    /// Connections can cross seams. Here, d is the smallest distance at which the faces include all `goals`, but at
-    /// most `limit`. If d is `limit`, some goals can be missing.
+    /// Connections can cross seams. Here, d is the smallest distance at which all `goals` are included, or `limit` if
+    /// that distance is larger. If d is `limit`, some goals can be missing.
     fn connecting(
         &self,
         start: FaceId,

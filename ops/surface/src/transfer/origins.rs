@@ -1,4 +1,4 @@
-//! The elements of the source from which each element of the target takes its value.
+//! Finds the elements of the source whose values each element of the target takes.
 
 use geometry::surface_index::{Nearest, SurfaceIndex, Triangle};
 use mesh::{Domain, HalfEdgeId, Mesh, Values};
@@ -6,8 +6,8 @@ use op::prelude::*;
 
 use super::charts::Charts;
 
-/// The elements of the source from which an element of the target takes its value, and the weight of each of these
-/// elements. `None` if the source is too far away.
+/// The elements of the source whose values an element of the target takes, each with its weight. `None` if the source
+/// is too far away.
 pub(super) type Origin = Option<[(usize, f64); 3]>;
 
 /// The mesh from which attributes are copied, and its spatial index.

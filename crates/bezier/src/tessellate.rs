@@ -232,8 +232,8 @@ mod tests {
             .collect()
     }
 
-    /// Returns the positions along a side, in the direction of increasing u or v. The sides 0 to 3 are v = 0, u = 1, v
-    /// = 1 and u = 0.
+    /// Returns the positions along a side, in the direction of increasing u or v. Sides 0 to 3 are v = 0, u = 1, v = 1
+    /// and u = 0.
     fn side_positions(patch: &Patch, n: u32, side: usize) -> Vec<DVec3> {
         let mesh = tessellate(&[*patch], n, Faces::Quads).unwrap();
         let m = n as usize;

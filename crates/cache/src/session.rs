@@ -44,8 +44,8 @@ pub(crate) struct Session<'a> {
     ingredients: Option<Ingredients>,
     /// The time that steps have taken since a scene was last stored or loaded.
     unstored_time: Duration,
-    /// The last step that ran because something changed, so that later steps possibly must run again, too. The tuple
-    /// consists of the number of the step, counted from 1, and its label.
+    /// The last step that ran because something changed. Because of this step, later steps may also have to run again.
+    /// The tuple consists of the number of the step, counted from 1, and its label.
     last_changed: Option<(usize, String)>,
     notes: Vec<String>,
 }
@@ -396,8 +396,9 @@ impl<'a> Session<'a> {
             return None;
         }
         let stored = done.stage.and_then(|stage| {
-            // `done.written` lists the files whose length or modification time has changed. A file can be written twice
-            // within the resolution of modification times and keep its length, so the requested paths are added.
+            // `done.written` lists the files whose length or modification time has changed. If a file keeps its length
+            // and is written twice within a short time, its modification time can stay the same. The requested paths
+            // are therefore added.
             let requested = requested.iter().map(|(_, path)| path);
             let requested = requested.filter(|path| stage.join(path).is_file());
             let written: BTreeSet<&PathBuf> = done.written.iter().chain(requested).collect();

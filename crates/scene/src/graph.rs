@@ -39,8 +39,8 @@ pub struct Graph {
     /// Arrays of numbers. Skins and animations refer to these arrays by index, and can share an array.
     pub arrays: Vec<Vec<f32>>,
     /// The parts of a glTF file that have no field in [`Graph`]. Each key is the name of a part, and each value is a
-    /// JSON object. `asset` has the copyright and the extras of the asset, `scene` has the name and the extras of the
-    /// scene, and `root` has the extras of the document.
+    /// JSON object. `asset` contains the copyright and the extras of the asset. `scene` contains the name and the
+    /// extras of the scene. `root` contains the extras of the document.
     pub document: BTreeMap<String, String>,
     /// The labels of meshes. Each key is the name of the object that has the mesh.
     labels: BTreeMap<String, MeshLabel>,
@@ -70,7 +70,7 @@ pub struct Node {
     pub extras: Option<String>,
 }
 
-/// The properties of a mesh that a file stores, but that have no field in [`Object`](crate::Object).
+/// Properties of a mesh that a file can store, and for which [`Object`](crate::Object) has no field.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshLabel {
     /// The name of the mesh, which can differ from the name of the object.

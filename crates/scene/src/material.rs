@@ -187,7 +187,7 @@ pub enum Image {
     },
 }
 
-/// Formats the number of bytes of the image file instead of the bytes.
+/// Writes the number of bytes of the image file instead of the bytes themselves.
 impl fmt::Debug for Image {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

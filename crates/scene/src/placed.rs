@@ -27,9 +27,9 @@ pub struct Instance<'s> {
 }
 
 impl Instance<'_> {
-    /// Returns the object with the name of the instance. The points of a mesh are mapped to scene space; other geometry
-    /// is unchanged. Morph targets deform the mesh by the weights of the node, or by the default weights if the node
-    /// has none. A skin deforms the mesh by the placements of the joints.
+    /// Returns a copy of the object that has the name of the instance. The points of a mesh are mapped to scene space;
+    /// other geometry is unchanged. Morph targets deform the mesh by the weights of the node, or by the default weights
+    /// if the node has none. A skin deforms the mesh by the placements of the joints.
     pub fn placed(&self) -> Object {
         let geometry = match &self.object.geometry {
             Geometry::Mesh(mesh) if self.pose.deforms() => {

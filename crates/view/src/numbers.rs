@@ -271,9 +271,9 @@ impl Quantity {
             Self::DihedralAngle => [0.0, if high > 90.0 { 180.0 } else { 90.0 }],
             Self::DistanceTo(_) => [0.0, high],
             // The range is symmetric about 0. The range excludes the lowest and the highest eighth of the values.
-            // Curvatures are very large at a few sharp corners and rims, and meshes often have many vertices there. If
-            // all remaining values are 0, as on a flat surface with sharp edges, the range excludes only 2 % of the
-            // values at each end. If the remaining 96 % are all 0 too, the range excludes no values.
+            // Curvatures are very large at sharp corners and rims, and meshes often have many vertices there. If all
+            // remaining values are 0, as on a flat surface with sharp edges, the range excludes only 2 % of the values
+            // at each end. If the remaining 96 % are all 0 too, the range excludes no values.
             Self::MeanCurvature | Self::GaussianCurvature => {
                 let max = [8, 50, usize::MAX].map(|part| {
                     let n_outliers = values.len() / part;

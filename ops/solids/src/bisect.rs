@@ -52,9 +52,9 @@ pub enum Keep {
     /// Both sides. They stay connected at the cut.
     #[default]
     Both,
-    /// The side of the plane that the normal of the plane points to.
+    /// The side in front of the plane: the normal of the plane points to this side.
     Front,
-    /// The side of the plane that the normal of the plane points away from.
+    /// The side behind the plane: the normal of the plane points away from this side.
     Back,
 }
 

@@ -42,10 +42,10 @@ pub struct Symmetrize {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "SymmetrizeSide")]
 pub enum Side {
-    /// The side of the plane that the normal of the plane points to.
+    /// The side in front of the plane: the normal of the plane points to this side.
     #[default]
     Front,
-    /// The side of the plane that the normal of the plane points away from.
+    /// The side behind the plane: the normal of the plane points away from this side.
     Back,
 }
 

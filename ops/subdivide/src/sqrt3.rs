@@ -40,8 +40,8 @@ use crate::step::{Step, Until};
 /// Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 ///
 /// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every second
-/// level also cuts each boundary edge in three. The result of this level has one more vertex and one more edge for each
-/// boundary edge. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new vertex in
+/// level also cuts each boundary edge in three. For each boundary edge, the counts of vertices and edges are then
+/// larger by one. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new vertex in
 /// face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step counts its
 /// own levels from 1. One step of two levels therefore cuts the boundary edges. Two steps of one level each leave the
 /// boundary edges uncut.

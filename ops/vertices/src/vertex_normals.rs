@@ -29,7 +29,7 @@ pub use gather::normals;
 ///
 /// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are
 /// removed, because they would contradict the vertex normals. The normal of a vertex is the zero vector if the vertex
-/// has no faces, if its faces have zero area, or if their normals cancel each other out. The report counts these
+/// has no faces, if all its faces have zero area, or if their normals cancel each other out. The report counts these
 /// vertices.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

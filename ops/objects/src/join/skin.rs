@@ -27,8 +27,8 @@ pub(super) enum LostSkin {
 pub(super) struct KeptSkin {
     /// The name of the first skinned part. The node and the morph weights of this part are kept.
     pub(super) part: String,
-    /// The map of the first joint. It maps points to scene space. Before the map, the points are in the space in which
-    /// the skin binds points.
+    /// The map of the first joint. It maps points from bind space to scene space. Bind space is the space in which the
+    /// skin binds points.
     first_joint: DAffine3,
 }
 

@@ -226,7 +226,7 @@ fn highlights_in_a_scene_without_meshes_give_a_note() {
     assert_eq!(notes(highlighted, &scene), [""; 0]);
 }
 
-/// Receives progress reports. Contains the name of a task, and cancels the run when this task is half done.
+/// Cancels the run when a task is half done. The field is the name of this task.
 struct Halfway(&'static str);
 
 impl op::Progress for Halfway {

@@ -91,7 +91,7 @@ fn shuffled(positions: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u3
     (moved, triangles)
 }
 
-/// Puts values into a random order, by a linear congruential generator.
+/// Puts values into a random order, with a linear congruential generator.
 fn shuffle<T>(values: &mut [T]) {
     let mut state = 1_u64;
     for i in (1..values.len()).rev() {

@@ -48,8 +48,8 @@ impl Sides {
 
         let column = |c: usize| [p[0][c], p[1][c], p[2][c], p[3][c]];
         let is_collapsed = |side: [DVec3; 4]| {
-            // Subtract the first point of the side before the samples are computed, so that a patch far from the origin
-            // does not lose precision.
+            // The first point of the side is subtracted before the samples are computed, so that a patch far from the
+            // origin does not lose precision.
             let side = side.map(|q| q - side[0]);
             let m = segments.min(3);
             (1..=m).all(|i| size(cubic(side, Weights::ratio(i, m))) <= tolerance)

@@ -182,7 +182,7 @@ fn evict(folder: &Folder, limit: u64) -> io::Result<u64> {
 mod tests {
     use super::*;
 
-    /// Returns a cache with `n` files of 1000 bytes each, the least recently used one first.
+    /// Returns a cache with `n` files of 1000 bytes each. The least recently used file comes first.
     fn filled(n: u8) -> (tempfile::TempDir, Folder) {
         let temporary = tempfile::tempdir().unwrap();
         let folder = Folder::new(temporary.path().join("cache"));

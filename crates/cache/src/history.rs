@@ -53,8 +53,8 @@ impl History {
         });
     }
 
-    /// Stores the steps of this run. If this run reached only the first n steps, the steps of the last run after its
-    /// first n steps are kept.
+    /// Stores the steps of this run. If this run reached only the first n steps, the later steps of the last run are
+    /// kept.
     pub(crate) fn store(&mut self, folder: &Folder) {
         let Some(id) = self.id else { return };
         let n = self.this_run.len();

@@ -142,8 +142,8 @@ mod tests {
             })
             .collect();
         assert_eq!(keys.len(), changes.len());
-        // Two different ways of dividing the same characters between the fields `program` and `operation` must give
-        // different keys.
+        // The same characters can be divided between the fields `program` and `operation` in different ways. Each way
+        // must give a different key.
         let (mut a, mut b) = (ingredients(), ingredients());
         (a.program, a.operation) = ("pO".into(), "p".into());
         (b.program, b.operation) = ("p".into(), "Op".into());

@@ -332,7 +332,8 @@ fn an_input_file_that_changes_disappears_or_appears_is_named() {
         assert_eq!(ran[0], (1, why));
         place.runs_nothing(&text);
     }
-    // After these changes, both files are as in an earlier run, and the result of that run is still in the cache.
+    // After these changes, both files have the same content as in an earlier run. The result of that run is still in
+    // the cache.
     fs::remove_file(place.path("n.beside")).unwrap();
     place.write("n.txt", "4");
     place.runs_nothing(&text);
@@ -468,8 +469,7 @@ fn a_large_scene_that_is_fast_to_compute_may_be_computed_again() {
     let place = Place::new();
     let text = steps("Sheet(columns: 60000), Write(path: \"a.txt\")");
     place.run(&text);
-    // Whether the scene is stored depends on the speed of the machine. The outcome does not depend on whether the scene
-    // is stored.
+    // On a fast machine, the scene is possibly not stored. The outcome is the same in both cases.
     let more = text.replace("])", ", Sheet(columns: 1, name: \"b\")])");
     let outcome = place.run(&more);
     assert_eq!(outcome.steps.len(), 3);

@@ -36,7 +36,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-/// Runs the examples of the book's chapter about the library as tests.
+/// Runs, as tests, the examples in the book's chapter about the library.
 #[cfg(doctest)]
 #[doc = include_str!("../../../book/src/library.md")]
 struct Library;

@@ -155,7 +155,7 @@ fn steps_read_and_write_files_in_the_store() {
         keep_outputs: true,
         cache: None,
     };
-    // The first run writes the file with which the second run compares its scene.
+    // The first run writes a file. The second run compares its scene with this file.
     let load = |text: &str| engine.load(&Source::new("a.ron", text), &Options::default());
     let first = text.replace(", Same(as: File(\"out/new/b.obj\"))", "");
     for text in [first.as_str(), text] {

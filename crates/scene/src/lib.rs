@@ -1,4 +1,4 @@
-//! A scene: named objects, each a mesh, Bezier patches, a Bezier curve or polylines.
+//! Scenes: lists of named objects. An object is a mesh, Bezier patches, a Bezier curve or polylines.
 //!
 //! Each object has its own coordinate system, called its space. The nodes of the [graph](Graph) place meshes in the
 //! scene. If no node references an object, the coordinates of the object are in scene space. Object names are unique.

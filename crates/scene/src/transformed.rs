@@ -7,7 +7,7 @@ use mesh::{
 };
 use rayon::prelude::*;
 
-/// Returns a mesh with all points, normals, tangents and deltas of morph targets transformed. All ids stay the same. If
+/// Returns the mesh with transformed points, normals, tangents and deltas of morph targets. All ids stay the same. If
 /// the map is a reflection, faces are reversed as in [`Mesh::reverse`]. Unlike [`Mesh::reverse`], this function keeps
 /// attributes with [`Rule::Drop`].
 ///

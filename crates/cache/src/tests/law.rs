@@ -1,4 +1,4 @@
-//! Property tests: a run with the cache has the same outcome as a run without it, whatever the cache contains.
+//! Property tests: for any content of the cache, a run with the cache has the same outcome as a run without it.
 
 use proptest::prelude::*;
 

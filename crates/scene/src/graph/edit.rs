@@ -49,8 +49,7 @@ impl Graph {
                 is_named = true;
             }
         }
-        // A mesh without a label has no name of its own: its name is that of the object, so nothing else must be
-        // renamed.
+        // A mesh without a label has the name of its object, so nothing else must be renamed.
         if let Some(mut label) = self.labels.remove(from) {
             if !is_named || label.name.as_deref() == Some(from) {
                 label.name = Some(to.to_owned());

@@ -219,8 +219,8 @@ impl Graph {
         flags
     }
 
-    /// Updates skins and animations after nodes were removed. `places` has the new index of each node, or `None` if the
-    /// node was removed. Joints and roots of skins must not be removed. Channels of removed nodes are removed.
+    /// Updates skins and animations after nodes were removed. `places` contains the new index of each node, or `None`
+    /// if the node was removed. Joints and roots of skins must not be removed. Channels of removed nodes are removed.
     /// Animations that then have no channel are removed too.
     pub(super) fn renumber_rig(&mut self, places: &[Option<usize>]) {
         for skin in &mut self.skins {

@@ -72,7 +72,7 @@ fn nodes(scene: &Scene) -> Vec<(&str, Option<&str>, Option<usize>)> {
         .collect()
 }
 
-/// Checks that the canonical form has every part of the scene, and that decoding restores the scene.
+/// Checks that the canonical form contains every part of the scene, and that decoding restores the scene.
 #[track_caller]
 fn assert_consistent(scene: &Scene) {
     let mut bytes = Vec::new();

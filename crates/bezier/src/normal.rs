@@ -48,8 +48,8 @@ pub const VANISHING: f64 = 1e-10;
 /// Returns the limit of the normals along a line from `uv` into the patch. Up to three lines are tried. Returns `None`
 /// if the normals are zero along all of them.
 ///
-/// `c` has the Taylor coefficients of the patch at `uv`: c\[i\]\[j\] is the coefficient of x^i y^j.
-/// `max_steps` is the result of [`Patch::max_steps`](crate::Patch), which must not be zero.
+/// `c` contains the Taylor coefficients of the patch at `uv`: c\[i\]\[j\] is the coefficient of x^i y^j. `max_steps` is
+/// the result of [`Patch::max_steps`](crate::Patch), which must not be zero.
 pub(crate) fn limit(c: &[[DVec3; 4]; 4], max_steps: DVec2, uv: DVec2) -> Option<DVec3> {
     inward_directions(uv)
         .into_iter()

@@ -35,7 +35,7 @@ pub(crate) fn derivative(points: &[DVec3], t: f64) -> DVec3 {
     sum(points, |n, i| weight_derivative(n, i, t))
 }
 
-/// Returns the point and the derivatives with respect to u and v of the patch with control points `points`.
+/// For the patch with control points `points`, returns the point and the derivatives with respect to u and v.
 pub(crate) fn patch(points: &[[DVec3; 4]; 4], u: f64, v: f64) -> [DVec3; 3] {
     let rows = points.map(|row| point(&row, u));
     let slopes = points.map(|row| derivative(&row, u));

@@ -134,7 +134,7 @@ fn a_skinned_object_is_moved_with_its_joints_and_keeps_its_animation() {
         &points(&scene, "hat")[..1],
         &[points(&self::scene(), "hat")[0]],
     );
-    // The animated hip gets a new parent and keeps its own placement.
+    // The node of the animated joint `hip` gets a new parent and keeps its own placement.
     assert_eq!(report.notes, ["nodes inserted above animated nodes: 1"]);
     let graph = scene.graph();
     assert_eq!(graph.nodes()[1].name.as_deref(), Some("hip"));

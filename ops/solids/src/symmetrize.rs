@@ -14,11 +14,11 @@ use op::prelude::*;
 /// Replaces one half of a mesh with the mirror image of the other half.
 ///
 /// The mesh is cut along a plane, as with `Bisect`. The half on the side `from` is kept and mirrored, and the halves
-/// are joined at the plane. Vertices that `Bisect` would treat as on the plane are moved exactly onto the plane, so
-/// that the result is symmetric. Faces that lie in the plane are removed, because they would become walls inside the
-/// result. A vertex on the plane joins the halves if it is on the boundary of the kept half. Where the surface only
-/// touches the plane, without a boundary there, the halves are not joined. The report counts the faces that are removed
-/// completely, but not the faces that the plane cuts.
+/// are joined at the plane. Vertices near the plane (see `Bisect`) are moved exactly onto the plane, so that the result
+/// is symmetric. Faces that lie in the plane are removed, because they would become walls inside the result. A vertex
+/// on the plane joins the halves if it is on the boundary of the kept half. Where the surface only touches the plane,
+/// without a boundary there, the halves are not joined. The report counts the faces that are removed completely, but
+/// not the faces that the plane cuts.
 ///
 /// The elements of the kept half come first, in their old order. The elements of the mirror image follow. Attributes
 /// are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and tangents are

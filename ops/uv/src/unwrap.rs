@@ -32,8 +32,8 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 /// attributes do not change, but tangents are removed because they depend on the texture coordinates. Zero-area faces
 /// also have zero area in the texture. The report counts the faces with zero area in the texture. If a polygon is bent
 /// so far that it overlaps itself in the texture, the step fails and gives the reason `WrongPlace`. To avoid this
-/// failure, triangulate such polygons before this step. With `on_refusal: Skip`, the step does not fail, and the
-/// triangles of such a polygon overlap in the texture.
+/// failure, triangulate the bent polygons before this step. With `on_refusal: Skip`, the step does not fail, and the
+/// triangles of the bent polygons overlap in the texture.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Unwrap {
@@ -46,8 +46,8 @@ pub struct Unwrap {
     #[serde(default = "max_angle")]
     #[schemars(range(min = 1.0, max = 89.0))]
     pub max_angle: f64,
-    /// The largest factor by which the area scale of a triangle is allowed to be larger or smaller than the area scale
-    /// of its whole chart. The area scale is the area in the texture divided by the area on the surface.
+    /// The area scale of a triangle is allowed to differ from the area scale of its whole chart by at most this factor.
+    /// The area scale is the area in the texture divided by the area on the surface.
     #[serde(default = "max_stretch")]
     #[schemars(range(min = 1.0, max = 1000.0))]
     pub max_stretch: f64,

@@ -101,7 +101,7 @@ impl Mesh {
     /// # Panics
     ///
     /// Panics if two arrays for the same kind of element have different lengths, if the number of half-edges is odd, or
-    /// if the mesh has more elements than there are 32-bit ids.
+    /// if the mesh has too many elements for 32-bit ids.
     pub fn from_arrays(connectivity: Connectivity, positions: Vec<DVec3>) -> Self {
         let mesh = Self {
             connectivity,

@@ -1,9 +1,9 @@
 //! Attributes: named, typed columns of values on vertices, corners, edges and faces.
 //!
 //! The domain of a column is one of these four kinds of elements. A column has one value for each element of its
-//! domain, and a [`Rule`] that defines what edits do with the values. The value of a corner is stored at the half-edge
-//! that leaves the vertex of the corner and belongs to the face of the corner. A corner column also has values at
-//! half-edges without a face, but these values have no meaning.
+//! domain. The [`Rule`] of a column defines how edits change its values. A corner is represented by a half-edge of its
+//! face: the half-edge that leaves the vertex of the corner. The value of the corner is stored at this half-edge. A
+//! corner column also has values at half-edges without a face, but these values have no meaning.
 //!
 //! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs can also use any other name.
 
@@ -32,16 +32,16 @@ pub const UV: Attribute<HalfEdgeId, DVec2> = Attribute::new("uv", Rule::Interpol
 pub const VERTEX_NORMAL: Attribute<VertexId, DVec3> = Attribute::new("normal", Rule::Normal);
 /// Unit normals of corners, which can differ between the faces around a vertex.
 pub const CORNER_NORMAL: Attribute<HalfEdgeId, DVec3> = Attribute::new("normal", Rule::Normal);
-/// Unit vectors at vertices that are tangent to the surface. The direction in the tangent plane is arbitrary.
+/// At each vertex, a unit vector that is tangent to the surface. The direction in the tangent plane is arbitrary.
 pub const TANGENT: Attribute<VertexId, DVec3> = Attribute::new("tangent", Rule::Normal);
-/// Tangents of corners for normal maps. The first three numbers are the tangent t, a unit vector along the u
+/// Tangents at corners, which normal maps need. The first three numbers are the tangent t, a unit vector along the u
 /// axis of the texture coordinates. The fourth number is a sign s, 1 or -1. If n is the normal, s (n x t) is the
 /// bitangent, a vector along the v axis of the texture coordinates. The v axis points upwards in the texture.
 pub const CORNER_TANGENT: Attribute<HalfEdgeId, DVec4> = Attribute::new("tangent", Rule::Drop);
-/// Red, green, blue and alpha of vertices, from 0 to 1.
+/// The color of a vertex: red, green, blue and alpha, each from 0 to 1.
 pub const COLOR: Attribute<VertexId, DVec4> = Attribute::new("color", Rule::Interpolate);
-/// The index of a face's material in the list of materials of the object, counted from 0; -1 if the face has no
-/// material.
+/// The material of a face, as an index into the object's list of materials. The first index is 0; -1 means that the
+/// face has no material.
 pub const MATERIAL: Attribute<FaceId, i32> = Attribute::new("material", Rule::Copy);
 /// The number of the smoothing group of a face; 0 if the face is in no smoothing group.
 pub const SMOOTHING: Attribute<FaceId, i32> = Attribute::new("smoothing", Rule::Copy);
@@ -50,7 +50,7 @@ pub const CREASE: Attribute<EdgeId, f64> = Attribute::new("crease", Rule::Copy);
 /// The sharpness of a vertex, from 0 (smooth) to 10 (infinitely sharp).
 pub const VERTEX_SHARPNESS: Attribute<VertexId, f64> = Attribute::new("corner", Rule::Copy);
 
-/// What an edit or an operation does with the values of a column.
+/// How edits and operations change the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// A new element gets the weighted mean of the values of its source elements. Whole numbers and tags (named
@@ -73,7 +73,7 @@ pub enum Rule {
 pub struct Attribute<I, T> {
     /// The name of the column.
     pub name: &'static str,
-    /// What edits do with the values.
+    /// How edits change the values.
     pub rule: Rule,
     kind: PhantomData<fn() -> (I, T)>,
 }

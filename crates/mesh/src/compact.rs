@@ -9,7 +9,8 @@ use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId, parall
 pub struct Renumbering {
     /// The new vertex for each old vertex index.
     pub vertices: Vec<VertexId>,
-    /// The new edge for each old edge index. Half-edge 2e + i, where i is 0 or 1, becomes half-edge i of the new edge.
+    /// The new edge for each old edge index. If e becomes edge n, then half-edge 2e becomes 2n, and half-edge 2e + 1
+    /// becomes 2n + 1.
     pub edges: Vec<EdgeId>,
     /// The new face for each old face index.
     pub faces: Vec<FaceId>,

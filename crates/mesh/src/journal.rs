@@ -13,9 +13,10 @@
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
 //! overwrites; this record is the change that redoes the edits.
 //!
-//! Before an edit starts, the size of the entries is checked (without copies of whole arrays). If the journal has only
-//! one level and its entries take at least as much memory as the mesh plus 64 KiB, one copy of the old mesh replaces
-//! the entries. If a level of the journal has a copy of the mesh, no further entries are recorded for this level.
+//! Before an edit starts, the total size of the entries is checked. Copies of whole arrays do not count. If the journal
+//! has only one level and its entries take at least as much memory as the mesh plus 64 KiB, one copy of the old mesh
+//! replaces the entries. If a level of the journal has a copy of the mesh, no further entries are recorded for this
+//! level.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -73,7 +74,7 @@ struct Level {
     has_whole: bool,
 }
 
-/// One recorded value, to be restored.
+/// One recorded value, which an undo restores.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Entry {
     /// An overwritten id: the array, the index in the array, and the id as a plain number.
@@ -126,7 +127,7 @@ impl Connectivity {
 /// The number of elements of each domain, including dead ones.
 type Lengths = [usize; 4];
 
-/// The ends of all arrays: for each array, the entries from a given index to the end of the array.
+/// Entries that were cut off from the ends of all arrays.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tail {
     connectivity: Connectivity,
@@ -200,7 +201,7 @@ impl Journal {
         }
     }
 
-    /// Records the values of `element` in `columns`, which must be all columns of the domain of the element. Records
+    /// Records the old values of `element`. `columns` must be all columns of the domain of this element. Records
     /// nothing if the element is newer than the innermost level.
     pub(crate) fn record_values<I: Id>(&mut self, element: I, columns: &[Column]) {
         if self.needs_entry(element) {
@@ -362,7 +363,7 @@ impl Mesh {
         self.journal = Some(journal);
     }
 
-    /// Undoes the entries from index `start` on, in reverse order. Returns the change that redoes the undone
+    /// Undoes all entries whose index is at least `start`, in reverse order. Returns the change that redoes the undone
     /// edits.
     fn undo_entries(&mut self, change: &mut Change, start: usize) -> Change {
         let mut inverse = Change::default();

@@ -21,8 +21,8 @@
 //!
 //! [`Mesh::defects`] lists every broken invariant, with the element that breaks it:
 //!
-//! 1. All arrays that have one entry for each element of one kind (for example, for each half-edge) have the same
-//!    length. The number of half-edges is even.
+//! 1. If several arrays have one entry for each element of the same kind (for example, for each half-edge), these
+//!    arrays have the same length. The number of half-edges is even.
 //! 2. Every stored id belongs to an element that was not removed.
 //! 3. `next` is a permutation of the half-edges. The half-edge `next(h)` lies on the same face as `h` (or around the
 //!    same hole), and starts where `h` ends: `origin(next(h)) == target(h)`.
@@ -49,9 +49,10 @@
 //! | holes | [`fill_hole`](Mesh::fill_hole), [`fill_hole_by_ears`](Mesh::fill_hole_by_ears), [`bridge_loops`](Mesh::bridge_loops) |
 //! | whole meshes | [`reverse`](Mesh::reverse) |
 //!
-//! In the documentation of the edits, V is the number of vertices, E the number of edges, and F the number of faces. An
-//! element that an edit removes is marked dead ("dies"). The id of a dead element is not reused until [`Mesh::compact`]
-//! renumbers the elements. If an edit that added elements is undone, later edits reuse the ids of these elements.
+//! In the documentation of the edits, V is the number of vertices, E the number of edges, and F the number of faces. If
+//! an edit removes an element, the element is marked dead (it "dies"). The id of a dead element is not reused until
+//! [`Mesh::compact`] renumbers the elements. If an edit that added elements is undone, later edits reuse the ids of
+//! these elements.
 //!
 //! [`Mesh::begin`] starts to record edits. [`Mesh::rollback`] undoes the recorded edits and ends the recording.
 //! [`Mesh::commit`] keeps the edits, ends the recording and returns a [`Change`]. Later, [`Mesh::revert`] can undo this
@@ -72,7 +73,7 @@
 //! | `attribute.rs`, `attribute/columns.rs`, `attribute/values.rs` | named columns of values |
 //! | `attribute/rig.rs` | the names of the columns that deform a mesh |
 //! | `marks.rs`, `write.rs`, `journal.rs`, `compact.rs` | dead elements, writing single entries, undo, renumbering |
-//! | `edit/mod.rs`, `edit/flip.rs`, `edit/split.rs` | the reasons for which edits are refused, and two edits |
+//! | `edit/mod.rs`, `edit/flip.rs`, `edit/split.rs` | the reasons for refusing an edit, and two edits |
 //! | `build/mod.rs`, `build/pair.rs`, `build/assemble.rs` | building a mesh from polygons |
 //!
 //! # Examples
@@ -94,8 +95,9 @@
 #[cfg(test)]
 extern crate self as mesh;
 
-/// In unit tests of this crate, functions of the `geometry` crate would need a different `Mesh` type, because
-/// `geometry` depends on this crate. Therefore, the unit tests compile the files of `geometry` that they need.
+/// The unit tests of this crate cannot use `geometry` as a dependency. Its functions take the `Mesh` of the library
+/// build of this crate, and the test build defines a different `Mesh` type. Therefore, the unit tests compile the files
+/// of `geometry` that they need.
 #[cfg(test)]
 #[path = "../../geometry/src"]
 pub mod geometry {

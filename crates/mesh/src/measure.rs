@@ -11,7 +11,7 @@ use crate::{Domain, EdgeId, Element, FaceId, HalfEdgeId, Mesh};
 /// and π, unlike the arc cosine. Source: Kahan, "How Futile are Mindless Assessments of Roundoff", 2006, §12.
 pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
     let (a, b) = (ordinary(a).0, ordinary(b).0);
-    // Adding 0 turns -0 into 0, because the arc tangent of (0, -0) would be π.
+    // Adding 0 turns -0 into 0. Without this addition, the arc tangent of (0, -0) would be π.
     libm::atan2(a.cross(b).length(), a.dot(b) + 0.0)
 }
 
@@ -162,7 +162,8 @@ impl Mesh {
         self.edges().all(|e| !self.is_boundary_edge(e))
     }
 
-    /// Returns the half-edge with the lowest id of each boundary loop, in order of ids.
+    /// Returns one half-edge of each boundary loop, namely its half-edge with the lowest id. The result is in order of
+    /// ids.
     pub fn boundary_loops(&self) -> Vec<HalfEdgeId> {
         let mut is_visited = vec![false; self.connectivity.next.len()];
         let mut loops = Vec::new();

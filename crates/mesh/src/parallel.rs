@@ -75,7 +75,7 @@ pub fn blocks<R: Send>(n: usize, make: impl Fn(Range<usize>) -> R + Sync) -> Vec
     })
 }
 
-/// Calls `work` for each block of `out`, with the index in `out` of the first element of the block, and with the block.
+/// Calls `work(first, block)` for each block of `out`. The first element of the block has the index `first` in `out`.
 pub fn fill<T: Send>(out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     fill_blocks(out, &work);
 }
@@ -105,8 +105,8 @@ pub fn collect<T: Send>(n: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
         unsafe_code,
         reason = "some types have no zero value, so safe code would collect blocks and then copy all values once more"
     )]
-    // SAFETY: the capacity is at least n, and `fill` has passed each of the first n slots to the closure, which wrote
-    // it. If the closure `value` panics, `set_len` is not called.
+    // SAFETY: the capacity is at least n, and `fill` has passed each of the first n slots to the closure, which has
+    // written a value to the slot. If the closure `value` panics, `set_len` is not called.
     unsafe {
         all.set_len(n);
     }

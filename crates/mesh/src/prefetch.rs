@@ -5,18 +5,18 @@
 //! on the previous one, but the memory for later edits can be prefetched during the current edit. Flipping all edges of
 //! a mesh with 1 M triangles and an open journal took 1.0 s with prefetching and 1.5 s without. In this measurement,
 //! the elements were in random order in memory. Prefetching saves no time if neighboring elements are near each other
-//! in memory and edges are flipped in order of ids, because the elements of successive edits then share cache lines.
+//! in memory and edges are flipped in order of ids: successive edits then use the same cache lines.
 
 use crate::{EdgeId, HalfEdgeId, Mesh};
 
-/// [`Mesh::fetch_ahead`] prefetches the memory for an edit in four steps, because each step reads an address that the
-/// step before it has prefetched. For each step, this array contains how many edits ahead the step looks.
+/// [`Mesh::fetch_ahead`] prefetches the memory for an edit in four steps, because each step reads addresses from memory
+/// that an earlier step has prefetched. During edit i, step k prefetches memory for edit i + `STEPS[k]`.
 const STEPS: [usize; 4] = [32, 24, 16, 8];
 
 impl Mesh {
-    /// Asks the processor to prefetch memory for the edits of the edges that follow index `at` in `edges`. The caller
-    /// must edit the edges in the order of this list. The call is only a hint: the mesh does not change. `edges` is
-    /// allowed to contain ids of elements that are dead or do not exist.
+    /// Asks the processor to prefetch memory for later edits. The current edit changes the edge `edges[at]`; later
+    /// edits change the edges after it. The caller must edit the edges in the order of this list. The call is only a
+    /// hint: the mesh does not change. `edges` is allowed to contain ids of elements that are dead or do not exist.
     ///
     /// # Examples
     ///

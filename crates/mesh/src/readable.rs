@@ -47,8 +47,8 @@ pub fn readable_bytes(bytes: u64) -> String {
     }
 }
 
-/// Returns a number followed by its noun, such as "1 value", "2 values" or "0 vertices". `singular` is "vertex", a noun
-/// that ends with "vertex", or a noun whose plural has an additional "s".
+/// Returns a number followed by its noun, such as "1 value", "2 values" or "0 vertices". `singular` must end with
+/// "vertex", or form its plural with "s".
 pub fn counted<N: Copy + fmt::Display + From<u8> + PartialEq>(n: N, singular: &str) -> String {
     if n == N::from(1) {
         return format!("{n} {singular}");

@@ -9,10 +9,10 @@
 //! ```
 //!
 //! When a face is reversed, its half-edge h that leaves a vertex v becomes the half-edge that ends at v. The half-edge
-//! before h, prev(h), becomes the half-edge that leaves v. Therefore, prev(h) replaces h as the stored half-edge of v,
-//! as the stored half-edge of the face, and as the half-edge that stores the values of the corner at v. At a boundary
-//! vertex, the new stored half-edge has no face, as required: if h has no face, prev(h) has no face either. Reversing
-//! twice restores the connectivity of all living elements.
+//! before h, prev(h), becomes the half-edge that leaves v. Therefore, prev(h) replaces h in three roles: v can store
+//! it, the face can store it, and it stores the values of the corner at v. At a boundary vertex, the new stored
+//! half-edge has no face, as required: if h has no face, prev(h) has no face either. Reversing twice restores the
+//! connectivity of all living elements.
 
 use crate::attribute::Attributes;
 use crate::{Connectivity, Domain, HalfEdgeId, Mesh};
@@ -110,7 +110,8 @@ mod tests {
         ]
     }
 
-    /// Returns the mesh with the index of each half-edge as its corner value.
+    /// Returns the mesh with corner values that are all different: the value of each corner contains the index of its
+    /// half-edge.
     fn numbered(mut mesh: Mesh) -> Mesh {
         let uv = (0..mesh.domain_len(Domain::Corner))
             .map(|h| DVec2::new(h as f64, 0.0))

@@ -184,8 +184,8 @@ impl Mesh {
             .is_some_and(|h| self.face(h).is_none())
     }
 
-    /// Whether `e` has an end at which any corner attribute has different values on the two sides of `e`. A boundary
-    /// edge is not a seam.
+    /// Whether any corner attribute differs between the two sides of `e`, at one end of `e` or at both. A boundary edge
+    /// is not a seam.
     pub fn is_seam(&self, e: EdgeId) -> bool {
         let [h, twin] = e.half_edges();
         self.face(h).is_some()

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::{Connectivity, Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
-/// A broken invariant. The variants are in the order of the list of invariants in the crate's documentation.
+/// A broken invariant. The variants have the same order as the invariants in the crate's documentation.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Defect {
     /// The length of an array does not match the number of elements of its kind.

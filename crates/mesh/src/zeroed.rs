@@ -64,8 +64,8 @@ pub fn require_memory(bytes: usize) {
 }
 
 fn unwind(bytes: usize) -> ! {
-    // `resume_unwind` does not call the panic hook, because the hook would print a backtrace, for which there may be no
-    // memory either.
+    // Unlike `panic!`, `resume_unwind` does not call the panic hook. The hook would print a backtrace, and there may be
+    // no memory for the backtrace.
     std::panic::resume_unwind(Box::new(OutOfMemory { bytes }))
 }
 

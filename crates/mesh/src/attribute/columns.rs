@@ -1,4 +1,4 @@
-//! Named columns of values, and what edits do with them.
+//! Named columns of values, and the functions with which edits change them.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 pub struct Column {
     /// The name, unique in its domain.
     pub name: String,
-    /// What edits do with the values.
+    /// How edits change the values.
     pub rule: Rule,
     /// The values, one for each element of the domain.
     pub values: Values,
@@ -36,8 +36,8 @@ impl IntoIterator for Attributes {
     }
 }
 
-/// For each element of a new mesh, the element of the old mesh whose values the new element gets. If an entry is
-/// `NONE`, the new element gets zero values.
+/// For each element of a new mesh, the element of the old mesh from which the values are copied. If an entry is `NONE`,
+/// the new element gets zero values.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources<'a> {
     /// The old vertex for each new vertex.
@@ -85,8 +85,8 @@ impl Attributes {
         index.map(|i| &mut self.columns[domain as usize][i])
     }
 
-    /// Inserts a column into a domain. An existing column of this domain with the same name is replaced. The length of
-    /// the column must be the number of elements of this domain in the mesh that gets these attributes.
+    /// Inserts a column into a domain. An existing column of this domain with the same name is replaced. The column
+    /// must have one value for each element of this domain in the mesh to which these attributes belong.
     pub fn insert(&mut self, domain: Domain, column: Column) {
         let index = self.find(domain, &column.name);
         let columns = &mut self.columns[domain as usize];
@@ -186,7 +186,7 @@ impl Attributes {
 }
 
 impl Column {
-    /// Returns a column with the same name and rule, and these values.
+    /// Returns a copy of the column in which `values` replaces the values. The name and the rule stay the same.
     #[must_use]
     pub fn with_values(&self, values: Values) -> Self {
         Self {

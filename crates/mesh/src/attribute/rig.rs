@@ -24,8 +24,8 @@ const JOINT: &str = "joint:";
 const MORPH: &str = "morph:";
 const MORPH_NORMAL: &str = "morph_normal:";
 const MORPH_TANGENT: &str = "morph_tangent:";
-/// The attributes with changes of texture coordinates or colors have this prefix, the name of the changed attribute, a
-/// colon and the number of the morph target.
+/// The names of attributes that store changes of texture coordinates or colors begin with this prefix. The name of the
+/// changed attribute, a colon and the number of the morph target follow.
 const MORPH_VALUE: &str = "morph_";
 
 /// Returns the name of the attribute with the weights of a joint, one `f64` for each vertex.
@@ -54,26 +54,25 @@ pub fn morph_value_name(changed: &str, target: usize) -> String {
     format!("{MORPH_VALUE}{changed}:{target}")
 }
 
-/// Returns the joint whose weights the attribute with this name stores; `None` if this attribute does not store joint
-/// weights.
+/// If an attribute with this name stores the weights of a joint, returns the joint; otherwise, returns `None`.
 pub fn joint_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(JOINT)?)
 }
 
-/// Returns the morph target whose deltas the attribute with this name stores; `None` if this attribute does not store
-/// deltas.
+/// If an attribute with this name stores the deltas of a morph target, returns the morph target; otherwise, returns
+/// `None`.
 pub fn morph_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH)?)
 }
 
-/// Returns the morph target whose normals the attribute with this name stores. Returns `None` if an attribute with this
-/// name does not store such normals.
+/// If an attribute with this name stores the normals of a morph target, returns the morph target; otherwise, returns
+/// `None`.
 pub fn morph_normal_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_NORMAL)?)
 }
 
-/// Returns the morph target whose tangents the attribute with this name stores. Returns `None` if an attribute with
-/// this name does not store such tangents.
+/// If an attribute with this name stores the tangents of a morph target, returns the morph target; otherwise, returns
+/// `None`.
 pub fn morph_tangent_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_TANGENT)?)
 }
@@ -86,7 +85,8 @@ pub fn morph_value_of(name: &str) -> Option<(&str, usize)> {
     Some((changed, number(target).filter(|_| has_changes)?))
 }
 
-/// Returns the index of the set of texture coordinates with this name: 0 for `uv`, 1 for `uv1`, and so on.
+/// If an attribute with this name stores texture coordinates, returns the index of the set: 0 for `uv`, 1 for `uv1`,
+/// and so on. Returns `None` for any other name.
 pub fn uv_set(name: &str) -> Option<u32> {
     match name.strip_prefix(UV.name)? {
         "" => Some(0),

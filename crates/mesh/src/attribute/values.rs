@@ -9,8 +9,7 @@ use crate::parallel;
 /// the function calls the callback with the index and the weight of the old value.
 type Weights<'a> = dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync + 'a;
 
-/// In a list with the source of each new value, this entry marks a new value without a source. A new value without a
-/// source is zero.
+/// In a list with the source of each new value, this entry means that the new value has no source and is zero.
 const NO_SOURCE: usize = usize::MAX;
 
 /// The values of a column, one for each element of its domain.
@@ -116,9 +115,8 @@ impl Values {
         })
     }
 
-    /// Gathers values of any type. This function is not generic, because a generic function would be compiled again for
-    /// each closure and each type. `sources` is called with an index i and a list, and fills the list with the sources
-    /// of new value i and of the new values that follow it.
+    /// Does the same as [`gather`](Self::gather), but takes a `dyn` closure: a generic function would be compiled again
+    /// for each closure. `sources(i, list)` fills `list` with the sources of consecutive new values, from new value i.
     fn gather_blocks(&self, n: usize, sources: &(dyn Fn(usize, &mut [usize]) + Sync)) -> Self {
         const SOURCES: usize = 128;
         fn run<T: Value>(
@@ -222,7 +220,7 @@ impl Values {
         each!(self, v => v[i] = pop_value(bytes));
     }
 
-    /// Removes the values from index `n` on and returns them.
+    /// Removes and returns all values whose index is at least `n`.
     pub(crate) fn split_off(&mut self, n: usize) -> Self {
         each!(self, v => Value::wrap(v.split_off(n)))
     }

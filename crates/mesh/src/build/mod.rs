@@ -22,10 +22,10 @@
 //!   the same orientation as the first polygon of the part, and the second group the opposite orientation. The smaller
 //!   group is reversed. If both groups have the same size, the second group is reversed. If a part cannot get a
 //!   consistent orientation, none of its polygons is reversed. The first corner of a reversed polygon stays the first.
-//! - An edge between vertices a and b is not manifold if it has more than two sides, or if it has two sides that still
-//!   run in the same direction after polygons have been reversed. On a non-manifold edge, the k-th side from a to b is
-//!   paired with the k-th side from b to a. The sides are counted in the order of the corners. Unpaired sides become
-//!   boundary edges.
+//! - An edge between vertices a and b is not manifold if it has more than two sides. It is also not manifold if it has
+//!   two sides that run in the same direction even after polygons have been reversed. On a non-manifold edge, the k-th
+//!   side from a to b is paired with the k-th side from b to a. The sides are counted in the order of the corners.
+//!   Unpaired sides become boundary edges.
 //! - If the faces around a vertex form several fans, the fan that contains the first corner at the vertex keeps the
 //!   vertex. Each other fan gets a copy of the vertex. The copies come after all other vertices.
 //! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.
@@ -124,9 +124,9 @@ pub struct BuildOutput {
     pub mesh: Mesh,
     /// The repairs that made the mesh a manifold.
     pub report: BuildReport,
-    /// For each corner of the input, its half-edge, which leaves the vertex of the corner and belongs to the face of
-    /// its polygon. `NONE` if the polygon was dropped. On a reversed polygon, this half-edge runs along the side that
-    /// ends at the corner in the input; see [`edges_of_sides`](Self::edges_of_sides).
+    /// For each corner of the input, the half-edge that leaves the vertex of the corner, on the face made from the
+    /// polygon of the corner. `NONE` if the polygon was dropped. On a reversed polygon, this half-edge runs along the
+    /// side that ends at the corner in the input; see [`edges_of_sides`](Self::edges_of_sides).
     pub half_edge_of_corner: Vec<HalfEdgeId>,
     /// For each polygon of the input, its face; `NONE` if the polygon was dropped.
     pub face_of_polygon: Vec<FaceId>,

@@ -57,8 +57,8 @@ impl Orientation {
                         continue;
                     }
                     let g = polygons.face(other) as usize;
-                    // If the two sides of an edge have the same origin, they run in the same direction, so one of their
-                    // polygons is reversed.
+                    // If the two sides of an edge have the same origin, they run in the same direction, so their
+                    // polygons have opposite orientations.
                     let reversed = is_reversed[f] ^ (polygons.origin(c) == polygons.origin(other));
                     if is_visited[g] {
                         is_orientable &= is_reversed[g] == reversed;

@@ -23,7 +23,7 @@ pub(super) struct PairedSides {
     /// The edges with more than two sides, or with two sides that run in the same direction, ordered by their
     /// vertices.
     pub(super) non_manifold_edges: Vec<[VertexId; 2]>,
-    /// Whether the polygons have an edge with exactly two sides that both run in the same direction.
+    /// Whether any edge has exactly two sides, and both sides run in the same direction.
     pub(super) has_inconsistent_edge: bool,
 }
 

@@ -98,8 +98,9 @@ impl Star {
         }
     }
 
-    /// Finds, for each corner, the next corner clockwise around the vertex. For each neighbor w of the vertex, the
-    /// corner at the start of the k-th side to w is followed by the corner at the end of the k-th side from w.
+    /// Finds, for each corner, the next corner clockwise around the vertex. For each neighbor w, the k-th side from the
+    /// vertex to w is paired with the k-th side from w to the vertex. The corner at the start of the first of these two
+    /// sides is followed by the corner at the end of the second.
     fn match_by_comparing(&mut self) {
         let n = self.to.len();
         let mut free = if n == MAX_COMPARED {

@@ -14,17 +14,17 @@ impl Mesh {
     ///         |                    |
     /// ```
     ///
-    /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, n edges that
-    /// each join a new vertex to the next, and one face, whose first corner is the first new vertex. The new vertices
-    /// and edges are in clockwise order around `v`, starting at the first edge of
+    /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, n edges and
+    /// one face. Each new edge joins a new vertex to the next. The first corner of the new face is the first new
+    /// vertex. The new vertices and edges are in clockwise order around `v`, starting at the first edge of
     /// [`vertex_half_edges`](Self::vertex_half_edges). The numbers of vertices, edges and faces grow by n - 1, n and 1.
-    /// A face that has k corners at v gains k corners.
+    /// A face gains one corner for each of its corners at v.
     ///
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge. Corner attributes are
     /// interpolated within their face, separately on each side of a seam. Attributes that are not interpolated are
     /// copied from v. The new face has the values of the face to the left of the first edge in
-    /// [`vertex_half_edges`](Self::vertex_half_edges). At each cut, the corner of the new face has the same values as
-    /// the corner in the face to the left of the cut edge, as seen from v. New edges have zero values.
+    /// [`vertex_half_edges`](Self::vertex_half_edges). Each corner of the new face copies the values of another corner
+    /// at the same cut: the corner of the face to the left of the cut edge, as seen from v. New edges have zero values.
     ///
     /// Returns the new face.
     ///
@@ -80,11 +80,11 @@ impl Mesh {
     /// ```
     ///
     /// `e` and its ends a, b die. The n other edges at a and b keep their ids and end at the cuts. The new elements are
-    /// n vertices, n edges that each join a new vertex to the next, and one face, whose first corner is the first new
-    /// vertex. The new vertices and edges are in clockwise order around e. The cuts at a (the origin of the first
-    /// half-edge of e) come first, starting with the edge after e. The cuts at b follow. The numbers of vertices, edges
-    /// and faces grow by n - 2, n - 1 and 1. The faces beside e keep their number of corners. Any other face that has k
-    /// corners at a and b together gains k corners.
+    /// n vertices, n edges and one face. Each new edge joins a new vertex to the next. The first corner of the new face
+    /// is the first new vertex. The new vertices and edges are in clockwise order around e. The cuts at a (the origin
+    /// of the first half-edge of e) come first, starting with the edge after e. The cuts at b follow. The numbers of
+    /// vertices, edges and faces grow by n - 2, n - 1 and 1. The faces beside e keep their number of corners. Any other
+    /// face gains one corner for each of its corners at a and b.
     ///
     /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face to the
     /// left of the first half-edge of e.
@@ -171,8 +171,8 @@ impl Mesh {
     /// Cuts the half-edges of `cuts` at their fractions, and connects the cuts by a new face with the values
     /// of `f`.
     ///
-    /// The half-edges must be in clockwise order. Around the face to the right of a half-edge h of `cuts`, the twin of
-    /// h must be followed by the next half-edge of `cuts`; only a half-edge of the beveled edge is allowed in between.
+    /// The half-edges must be in clockwise order. If k follows h in `cuts`, then k must follow the twin of h around a
+    /// face. Only a half-edge of the beveled edge is allowed between the twin of h and k.
     fn join_cuts(&mut self, cuts: &[(HalfEdgeId, f64)], f: FaceId) -> FaceId {
         self.drop_columns_by_rule();
         let n = cuts.len();

@@ -3,7 +3,8 @@
 use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// Connects the holes of two half-edges without faces, `h` and `g`, by a band of faces.
+    /// Connects two holes by a band of faces. `h` is a half-edge of one hole, and `g` is a half-edge of the other: both
+    /// have no face.
     ///
     /// ```text
     ///    --d <-g-- c--          --d --- c--         a is joined to d, the target of g, and b to c.

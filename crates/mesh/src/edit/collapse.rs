@@ -24,12 +24,12 @@ impl Mesh {
     ///
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not interpolate:
     /// these keep their values at v. The corners at v of the faces beside `e` are interpolated within their face,
-    /// separately on each side of a seam. Other faces can also have corners at the ends of `e`. For each attribute, the
-    /// old value of this corner is compared with the old values at the same end in the faces beside `e`. If the value
-    /// is equal to the value of a face beside `e`, the corner gets the new value of that face at v. Otherwise, the
-    /// corner keeps its old value. When two edges become one, the remaining edge gets the larger of the two values of
-    /// each floating-point attribute, so that creases are preserved. A tag is set if either edge had this tag.
-    /// Attributes of other types keep the value of the remaining edge.
+    /// separately on each side of a seam. A face that is not beside `e` can also have a corner at an end of `e`. For
+    /// each attribute, the old value of this corner is compared with the old values of the faces beside `e` at the same
+    /// end. If the old value of one of these faces is equal, the corner gets the new value of this face at v.
+    /// Otherwise, the corner keeps its old value. When two edges become one, the remaining edge gets the larger of the
+    /// two values of each floating-point attribute, so that creases are preserved. A tag is set if either edge had this
+    /// tag. Attributes of other types keep the value of the remaining edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
@@ -43,9 +43,9 @@ impl Mesh {
     /// # Errors
     ///
     /// - [`EditError::JoinsBoundaries`] if both ends are on the boundary, but `e` is not.
-    /// - [`EditError::Link`] if the ends have a common neighbor that is not a corner of a triangle beside `e`, because
-    ///   two edges would join this neighbor to the merged vertex. This error is also returned if `e` is a side of a
-    ///   hole with three edges.
+    /// - [`EditError::Link`] if the ends have a common neighbor that is not a corner of a triangle beside `e`. After
+    ///   the collapse, two edges would join this neighbor to the merged vertex. This error is also returned if `e` is a
+    ///   side of a hole with three edges.
     /// - [`EditError::DuplicateEdge`] if a second edge joins the ends.
     /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners, because this face would
     ///   contain the merged vertex twice.
@@ -196,8 +196,8 @@ impl Mesh {
             h = self.next(h.twin());
         }
         // For each triangle beside the edge, the collapse merges the two edges that lead to the apex of the triangle.
-        // The collapse is refused if it would merge more than these two edges at an apex, because of parallel edges or
-        // of a hole with three edges whose third corner is the apex.
+        // The collapse is refused if it would merge more than these two edges at an apex. This happens if edges are
+        // parallel, or if the apex is also the third corner of a hole with three edges.
         for (i, x) in apexes.into_iter().enumerate() {
             let merged = apexes.iter().filter(|&&apex| apex == x).count();
             if let Some(x) = x.filter(|&x| shared[i].min(vertices.count(x)) > merged) {

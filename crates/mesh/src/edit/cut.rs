@@ -34,7 +34,7 @@ impl Mesh {
     /// slit). A slit cannot be opened, and a list of polygons cannot represent it. The function [`slits`](Self::slits)
     /// lists the edges that cannot be cut for this reason.
     ///
-    /// Returns the new edges. Each new edge is the other side of the cut along the edge at the same index of `edges`.
+    /// Returns the new edges. After the cut, new edge i lies on the other side of the cut along `edges[i]`.
     ///
     /// # Errors
     ///
@@ -147,8 +147,8 @@ impl Mesh {
     /// Adds a copy of each edge. The copy gets the face of the second half-edge of the edge. The caller must set the
     /// `next` of the half-edges without a face.
     fn duplicate_edges(&mut self, edges: &[EdgeId]) -> Vec<EdgeId> {
-        // Find the half-edge before the second half-edge of each edge while the mesh is still valid, because `prev` is
-        // then fast, even in a face with many corners.
+        // For each edge, find the half-edge before its second half-edge. While the mesh is still valid, `prev` is fast,
+        // even in a face with many corners.
         let second_halves = edges.iter().map(|e| e.half_edges()[1]);
         let before: Vec<HalfEdgeId> = second_halves.map(|h| self.prev(h)).collect();
         let pairs = edges.iter().zip(before);

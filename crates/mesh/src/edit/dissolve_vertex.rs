@@ -26,7 +26,8 @@ impl Mesh {
     /// Of the merged faces, the face with the lowest id remains and keeps its values; the other merged faces die. If
     /// two edges become one, the edge with the lower id remains and keeps its values. `v` and its other edges die. The
     /// Euler characteristic V - E + F stays the same. All other ids and values stay the same. This edit is the inverse
-    /// of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split cut no triangles.
+    /// of [`poke_face`](Self::poke_face). It is also the inverse of [`split_edge`](Self::split_edge), unless that split
+    /// has cut a triangle.
     ///
     /// Returns the merged face. If `v` has two edges, returns the face beside these edges. If `v` has two edges and two
     /// faces, returns the face with the lower id.

@@ -151,8 +151,8 @@ pub(super) struct Rim {
     index_of_base: BTreeMap<HalfEdgeId, usize>,
     /// For each base, the index of the base that starts where this base ends, in the same fan of faces.
     after: Vec<usize>,
-    /// The half-edges that lead from a vertex of the rim into the set, each with the index of the base that
-    /// leaves the same vertex in the same fan.
+    /// The half-edges that lead from a vertex of the rim into the set. Each entry also has the index of a base: the
+    /// base that leaves the same vertex in the same fan.
     inner: Vec<(HalfEdgeId, usize)>,
 }
 

@@ -80,8 +80,8 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// Panics if `ears` does not have exactly n - 2 different numbers, where n is the number of edges of the hole, or
-    /// if a number is not below n.
+    /// Let n be the number of edges of the hole. Panics unless `ears` consists of exactly n - 2 different numbers below
+    /// n.
     pub fn fill_hole_by_ears(
         &mut self,
         h: HalfEdgeId,

@@ -13,8 +13,8 @@ pub enum Seams {
 }
 
 impl Mesh {
-    /// Flips the edge between two faces: rotates the edge counter-clockwise inside the polygon that the two faces form,
-    /// so that each end moves to the next corner of this polygon.
+    /// Flips the edge between two faces. Together, the two faces form a polygon. The edge rotates counter-clockwise
+    /// inside this polygon: each end moves to the next corner.
     ///
     /// ```text
     ///        c                   c                 +-----c           +-----c

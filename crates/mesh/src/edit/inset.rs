@@ -106,8 +106,8 @@ impl Mesh {
         Ok(ring)
     }
 
-    /// Sets the interpolated values of each element of `to`. The new values lie at `t` between the values of
-    /// the corresponding element of `from` and the mean of all elements of `from`.
+    /// Sets the interpolated values of each element of `to`. At `t` = 0, an element gets the values of the element with
+    /// the same index in `from`; at `t` = 1, it gets the mean of all elements of `from`.
     fn mix_with_mean<I: Id>(&mut self, from: &[I], t: f64, to: &[I]) {
         let &[.., last] = to else { return };
         // The last element of `to` stores the mean until its own values are set at the end of the loop.

@@ -76,9 +76,9 @@ pub enum EditError {
     /// A face contains this vertex twice, or would contain it twice.
     #[error("a face would contain {0} twice")]
     RepeatedVertex(VertexId),
-    /// No face has both vertices as corners, or the two vertices are the same. [`Mesh::cut_face`] returns this error,
-    /// with the ends of the first diagonal in its list, if two diagonals cross or are equal, or if a diagonal joins
-    /// neighboring corners.
+    /// No face has both vertices as corners, or the two vertices are the same. [`Mesh::cut_face`] also returns this
+    /// error if two diagonals cross or are equal, or if a diagonal joins neighboring corners. The error then contains
+    /// the ends of the first diagonal in the list.
     #[error("no face can be cut from {0} to {1}")]
     NoCut(VertexId, VertexId),
     /// The cut between the two vertices is ambiguous: several faces have both vertices as corners, or one face contains

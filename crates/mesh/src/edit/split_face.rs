@@ -13,8 +13,8 @@ impl Mesh {
     /// ```
     ///
     /// `x` and `y` are half-edges of the face and denote the corners at their origins. The new edge runs from the
-    /// origin of `x` to the origin of `y`. The first half-edge of the new edge and `y` are on the old face; the second
-    /// half-edge of the new edge and `x` are on the new face. Each corner at an end of the new edge has the values of
+    /// origin of `x` to the origin of `y`. The old face keeps `y` and gets the first half-edge of the new edge. The new
+    /// face gets `x` and the second half-edge of the new edge. Each corner at an end of the new edge has the values of
     /// the old corner at this end. The new face has the values of the old face, and the new edge has zero values.
     ///
     /// Returns the new edge.

@@ -6,14 +6,14 @@ use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 /// the target of the other.
 type Pair = [HalfEdgeId; 2];
 
-/// Returns the half-edge that is replaced when the edges of a pair are merged: the half-edge with a face on the edge
-/// with the higher id.
+/// Returns the half-edge that is replaced when the edges of a pair are merged. On the edge with the higher id, this is
+/// the half-edge that has a face.
 fn replaced([h, g]: Pair) -> HalfEdgeId {
     h.max(g).twin()
 }
 
 impl Mesh {
-    /// Stitches two boundary edges: they become one edge.
+    /// Stitches two boundary edges, which become one edge.
     ///
     /// ```text
     ///       \   /                   \   /
@@ -78,7 +78,7 @@ impl Mesh {
             pairs.push([before_h, after_g]);
         }
         self.check_stitch(&pairs, [at_origin, at_target])?;
-        // Find the half-edge before each replaced half-edge while the mesh is still valid, because `prev` is then fast,
+        // For each replaced half-edge, find the half-edge before it. While the mesh is still valid, `prev` is fast,
         // even in a face with many corners.
         let before: Vec<HalfEdgeId> = pairs
             .iter()
@@ -107,8 +107,9 @@ impl Mesh {
         Ok(edges[0])
     }
 
-    /// Checks that the mesh would be valid after the edges of `pairs` and the vertices of `ends` were merged. Each of
-    /// `pairs` has two half-edges whose edges are merged, and each of `ends` two vertices that are merged.
+    /// Checks that the mesh would be valid after the edges of `pairs` and the vertices of `ends` were merged. Each
+    /// entry of `pairs` contains two half-edges whose edges would be merged. Each entry of `ends` contains two vertices
+    /// that would be merged.
     fn check_stitch(&self, pairs: &[Pair], ends: [[VertexId; 2]; 2]) -> Result<(), EditError> {
         for [x, y] in pairs {
             if self.face(x.twin()) == self.face(y.twin()) {

@@ -34,8 +34,8 @@ impl Random {
     }
 }
 
-/// Returns the expected result for polygons that keep their orientation: the arrays, and the input
-/// vertex of each vertex of the result. The input vertex of a copy is the vertex that was split.
+/// Returns the expected result for polygons that keep their orientation: the arrays, and for each vertex of the result,
+/// the input vertex from which it comes. A copy comes from the vertex that was split.
 fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usize>) {
     let is_valid = |p: &&Vec<u32>| {
         let unique: std::collections::BTreeSet<_> = p.iter().collect();

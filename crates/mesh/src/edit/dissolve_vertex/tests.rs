@@ -76,8 +76,8 @@ fn it_is_the_inverse_of_split_edge_if_no_triangle_is_cut() {
     }
 }
 
-/// Checks that the meshes are equal after compacting, except for columns whose rule is `Drop` and for the
-/// choice of the half-edge of a face or vertex.
+/// Compacts `mesh`, and checks that both meshes have the same polygons, half-edges, positions, UVs and materials. The
+/// half-edges stored at vertices and faces are allowed to differ.
 fn assert_same_after_compact(mut mesh: Mesh, shape: &Mesh) {
     mesh.compact();
     assert_eq!(polygons(&mesh), polygons(shape));

@@ -3,7 +3,7 @@
 
 use super::*;
 
-/// Returns shapes of all kinds that are so small that refusals are frequent.
+/// Returns small shapes of all kinds. On small shapes, refusals are frequent.
 pub(super) fn samples() -> Vec<Mesh> {
     let fans = |mesh: Mesh| shapes::fans(&mesh);
     vec![
@@ -181,7 +181,7 @@ fn both_implementations_agree_on_random_meshes() {
             }
         }
     }
-    // Every outcome occurred.
+    // Each outcome must have occurred.
     let names: Vec<_> = outcomes.keys().map(String::as_str).collect();
     let expected = [
         "DuplicateEdge",

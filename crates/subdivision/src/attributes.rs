@@ -34,8 +34,8 @@ pub(crate) fn is_carried(column: &Column) -> bool {
 impl AttributeSources<'_> {
     /// Computes the attribute columns of the next level:
     ///
-    /// - Vertices: [`Rule::Interpolate`] averages old values with the weights of the positions (the masks).
-    ///   [`Rule::Copy`] keeps the values of old vertices, and new vertices have the value zero.
+    /// - Vertices: [`Rule::Interpolate`] averages old values with the weights that also give the new positions (the
+    ///   masks). [`Rule::Copy`] keeps the values of old vertices, and new vertices have the value zero.
     /// - Corners: [`Rule::Interpolate`] interpolates linearly within the old face. If `sharpness` is given, floats and
     ///   vectors are smoothed instead, as [`FaceVarying`] defines: separately on each side of a seam. [`Rule::Copy`]
     ///   keeps the values of old corners, and new corners have the value zero.
@@ -81,8 +81,8 @@ impl AttributeSources<'_> {
         let Some(old) = to_vec4s(&column.values) else {
             return Ok(column.values.blend(n, |i, add| self.masks.mask(i, add)));
         };
-        // Values are smoothed as 3D vectors, and a fourth component separately, so that the code of the masks is
-        // compiled for one type only.
+        // The first three components are smoothed as a 3D vector; the fourth component is smoothed separately. In this
+        // way, the code of the masks is compiled for one type only.
         let smoothed = |part: fn(&DVec4) -> DVec3| {
             let old: Vec<DVec3> = old.iter().map(part).collect();
             self.masks.values(n, &old, meter)

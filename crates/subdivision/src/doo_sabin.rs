@@ -22,9 +22,9 @@
 //!
 //! (h itself runs from left to right, from a to b, in the middle of face F + e.)
 //!
-//! At a boundary vertex, whose outgoing boundary half-edge is h, the half-edge join(h) from p(h) to q(prev(h)) closes
-//! the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h). The edges of
-//! the half-edges join(h) come after all other edges, in order of h.
+//! Let h be the outgoing boundary half-edge of a boundary vertex. The half-edge join(h), from p(h) to q(prev(h)),
+//! closes the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h). The
+//! edges of the half-edges join(h) come after all other edges, in order of h.
 //!
 //! Face f keeps its id, edge e becomes face F + e (F is the number of old faces), and the faces of vertices follow in
 //! order of the vertices. Isolated vertices have no faces. They are kept, and the ids of isolated vertices come after
@@ -133,7 +133,7 @@ impl<'a> DooSabin<'a> {
         HalfEdgeId::new(2 * (self.first_join() + self.outer.below(h.index())))
     }
 
-    /// Returns the lowest edge id of all half-edges join(h).
+    /// Returns the lowest id of the edges that contain a half-edge join(h).
     fn first_join(&self) -> usize {
         4 * self.n_edges - self.doubled.len()
     }

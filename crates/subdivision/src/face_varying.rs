@@ -12,14 +12,14 @@
 //!            /   |   \
 //! ```
 //!
-//! [`FaceVarying`] decides at which vertices the value of a piece does not change. These vertices are called the
-//! corners of the piece. The rules are the rules of OpenSubdiv's face-varying interpolation. In this crate, the rules
-//! are applied to each level separately. So one call that computes two levels gives the same result as two calls that
-//! compute one level each. The results can differ from those of OpenSubdiv in one case: two pieces meet at a vertex,
-//! and a semi-sharp edge (sharp on the first levels only) is inside one of them. As long as the edge in one piece is
-//! sharp, the value of the other piece can stay unchanged, too. OpenSubdiv decides on the first level whether this
-//! value stays unchanged, and keeps the decision on all levels. If the pieces, their seam and their vertex have
-//! different semi-sharp values, the results on later levels can differ from those of OpenSubdiv.
+//! At some vertices, the value of a piece does not change. These vertices are called the corners of the piece, and
+//! [`FaceVarying`] defines the rules that select them. The rules are those of OpenSubdiv's face-varying interpolation.
+//! In this crate, the rules are applied to each level separately. So one call that computes two levels gives the same
+//! result as two calls that compute one level each. The results can differ from those of OpenSubdiv in one case: two
+//! pieces meet at a vertex, and a semi-sharp edge (sharp on the first levels only) is inside one of them. As long as
+//! the edge in one piece is sharp, the value of the other piece can stay unchanged, too. OpenSubdiv decides on the
+//! first level whether this value stays unchanged, and keeps the decision on all levels. If the pieces, their seam and
+//! their vertex have different semi-sharp values, the results on later levels can differ from those of OpenSubdiv.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -188,7 +188,7 @@ impl<'a> Field<'a> {
         self.pieces(v, start).value(self, h)
     }
 
-    /// Whether the rule for corner values differs from the rule for positions at a boundary vertex without seams.
+    /// At a boundary vertex without seams: whether the rule for corner values differs from the rule for positions.
     fn is_irregular_boundary(&self, v: VertexId, start: HalfEdgeId) -> bool {
         match self.rule {
             FaceVarying::None => false,

@@ -1,8 +1,8 @@
 //! Splits every old edge in two, as most schemes do.
 //!
-//! New edges are ordered so that the id of each new half-edge follows from the old ids without a search. V is the
-//! number of old vertices. Old edge e consists of half-edge 2e, which is called h and runs from a to b, and its twin.
-//! The edge becomes the new edges 2e and 2e + 1, which meet at the new vertex V + e:
+//! New edges are numbered so that the id of each new half-edge can be computed from the old ids, without a search. V is
+//! the number of old vertices. Old edge e consists of half-edge 2e, which is called h and runs from a to b, and its
+//! twin. The edge becomes the new edges 2e and 2e + 1, which meet at the new vertex V + e:
 //!
 //! ```text
 //!            first(h) = 4e            second(h) = 4e + 2
@@ -16,8 +16,8 @@
 //!
 //! Each vertex stores one outgoing half-edge. An old vertex stores the first part of the half-edge that it stored
 //! before. If the old half-edge is on the boundary, its first part is on the boundary, too. A new vertex stores the
-//! second part of one of the two half-edges of the old edge: of the boundary half-edge, if the old edge is on the
-//! boundary.
+//! second part of one of the two half-edges of its old edge. If the old edge is on the boundary, this is the boundary
+//! half-edge.
 //!
 //! The four half-edges and the vertex of each old edge are computed from the old mesh only, so all old edges can
 //! be processed in parallel. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop
@@ -63,20 +63,21 @@ pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
     }
 }
 
-/// The next half-edge of each of the two parts of a half-edge, and the face of each part.
+/// For the two parts of a half-edge: the next half-edge of each part, and the face of each part.
 pub(crate) type PartLinks = ([HalfEdgeId; 2], [FaceId; 2]);
 
-/// The part of the arrays of the next level that holds all elements after the elements on old edges.
+/// The end of the arrays of the next level, for the new elements that do not lie on old edges.
 pub(crate) struct AddedArrays<'n> {
     pub(crate) halves: Arrays<'n>,
-    /// The half-edges of the vertices that come after the new vertices on old edges.
+    /// The stored half-edges of the new vertices that do not lie on old edges.
     pub(crate) vertex_half_edge: &'n mut [HalfEdgeId],
     pub(crate) face_half_edge: &'n mut [HalfEdgeId],
 }
 
 /// Builds the connectivity of the next subdivision level. The links of a half-edge are its next half-edge and its face.
-/// The parts of old edges come first; `parts` gives the links of the two parts of each old half-edge. After the parts
-/// of old edges, `fill_added` writes `edges` edges, `vertices` vertices and `faces` faces.
+/// The parts of old edges come first; `parts` gives the links of the two parts of each old half-edge. `fill_added`
+/// writes the new elements that do not lie on old edges. `vertices`, `edges` and `faces` are the numbers of these
+/// elements.
 pub(crate) fn split_edges(
     mesh: &Mesh,
     [vertices, edges, faces]: [usize; 3],

@@ -13,8 +13,8 @@
 //! ```
 //!
 //! The second formula follows from the weights in `topology.rs` and cos((j - k)a) = cos(ja) cos(ka) + sin(ja) sin(ka).
-//! The weight of x(k) is written as 1 - 3/4 and not as 1/4, because integers and tags are not averaged: they take the
-//! value with the largest weight, which is then x(k).
+//! The weight of x(k) is added as 1 and -3/4, not as 1/4. The reason is that integers and tags are not averaged: they
+//! take the value with the largest weight. In this way, they take x(k).
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -29,7 +29,7 @@ const MAX_SMALL: usize = 64;
 /// Each large face has three sums, called m, c and s.
 const SUMS: usize = 3;
 
-/// The faces of a mesh with more than [`MAX_SMALL`] corners.
+/// The large faces of a mesh: the faces that have more than [`MAX_SMALL`] corners.
 #[derive(Default)]
 pub(crate) struct LargeFaces {
     faces: Vec<FaceId>,

@@ -67,9 +67,9 @@ use smoothed::LocalMasks;
 ///
 /// Ids change as follows. Old vertices keep their ids. Each level appends the new vertices on edges, in order of the
 /// edges, then the new vertices in faces, in order of the faces. Edges and faces are renumbered. The parts of an edge
-/// have consecutive ids, in order from the origin of its first half-edge to the target. The parts of a face have
-/// consecutive ids too. New edges inside faces come after the parts of old edges, in order of the faces. A mesh with
-/// dead (deleted) elements is compacted first.
+/// have consecutive ids, in order along the first half-edge of the edge. The parts of a face have consecutive ids too.
+/// New edges inside faces come after the parts of old edges, in order of the faces. A mesh with dead (deleted) elements
+/// is compacted first.
 ///
 /// Vertex attributes are blended with the weights of the positions. Where positions are smoothed, corner values
 /// are smoothed as defined by [`Rules::face_varying`]. Elsewhere each corner value is a mean of values of its own
@@ -152,7 +152,8 @@ pub fn refine_faces(
     Ok(mesh.into_owned())
 }
 
-/// Computes one level of a mesh without deleted elements, given how its faces and edges are cut.
+/// Computes one level of a mesh without deleted elements. `pieces` defines the parts into which faces and edges are
+/// cut.
 fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Mesh, Cancelled> {
     let sharpness = Sharpness::of(mesh, rules);
     level::with_masks(mesh, rules, sharpness, |masks| {

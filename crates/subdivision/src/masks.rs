@@ -1,4 +1,5 @@
-//! The masks of the schemes: the weights of old vertices in each vertex of the next level.
+//! The masks of the schemes. A mask contains the weight of each old vertex that contributes to a vertex of the next
+//! level.
 
 mod butterfly;
 mod catmull_clark;

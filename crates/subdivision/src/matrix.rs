@@ -110,8 +110,8 @@ impl SparseMatrix {
 /// Returns the matrix that maps the positions of a mesh to the positions after `levels` levels. The matrix has a
 /// row for each vertex of the refined mesh and a column for each vertex of the given mesh.
 ///
-/// [`SparseMatrix::apply`] multiplies the matrix by any values of the vertices. The refined values have the same
-/// weights as the refined positions.
+/// [`SparseMatrix::apply`] multiplies the matrix by a list of vertex values. This refines the values with the same
+/// weights as the positions.
 ///
 /// A mesh with dead (deleted) elements is compacted first, and the columns are the vertices of the compacted mesh.
 ///

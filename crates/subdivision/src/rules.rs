@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A scheme and its options. Only Loop and Catmull-Clark use the options. The rules, the mesh and, for Sqrt3, the index
-/// of the level determine the next level.
+/// A scheme and its options. Only Loop and Catmull-Clark use the options. The next level depends only on the rules and
+/// the mesh; for Sqrt3, it also depends on the index of the level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rules {
     /// The scheme.
@@ -101,7 +101,7 @@ pub enum Creasing {
     Chaikin,
 }
 
-/// How corner values, such as texture coordinates, are subdivided at seams, which are edges whose two sides have
+/// How corner values, such as texture coordinates, are subdivided at seams. A seam is an edge whose two sides have
 /// different values. The names are those of OpenSubdiv's face-varying linear interpolation rules.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum FaceVarying {

@@ -1,10 +1,10 @@
 //! Creases and corners: which rule applies to a vertex or an edge, and how sharpness decreases.
 //!
 //! Each edge and each vertex has a sharpness, which is a number. 0 is smooth, and 10 or more is sharp on every level. A
-//! value s between 0 and 10 is semi-sharp: the edge or vertex is sharp for s levels and then smooth. On the last level
-//! on which the sharpness is above 0, the sharp and the smooth rule are blended (DeRose, Kass and Truong, "Subdivision
-//! Surfaces in Character Animation", 1998, in the form used by OpenSubdiv). The rule of a vertex depends on the sharp
-//! edges at it:
+//! value s between 0 and 10 is semi-sharp: the edge or vertex is sharp for s levels and then smooth. On the last of
+//! these levels, the sharp rule and the smooth rule are blended. Source: DeRose, Kass and Truong, "Subdivision Surfaces
+//! in Character Animation", 1998, in the form used by OpenSubdiv. The sharp edges at a vertex determine the rule of the
+//! vertex:
 //!
 //! ```text
 //!         |                  |                  ‖                  ‖
@@ -103,8 +103,8 @@ pub(crate) struct SemiSharp {
 }
 
 impl SemiSharp {
-    /// Counts the semi-sharp edges among all edges at a vertex. `edges` has the sharpness of these edges. With any rule
-    /// except Chaikin's, counts no edges.
+    /// Counts the semi-sharp edges at a vertex. `edges` has the sharpness of every edge at the vertex. Only Chaikin's
+    /// rule needs the count; for other rules, the count is 0.
     pub(crate) fn of(creasing: Creasing, edges: impl Iterator<Item = f64>) -> Self {
         let mut semi_sharp = Self::default();
         if creasing == Creasing::Chaikin {
@@ -174,7 +174,7 @@ impl<'a> Sharpness<'a> {
         self.edges.is_none() && self.vertices.is_none()
     }
 
-    /// Returns the sharpness stored for an edge, at least 0.
+    /// Returns the sharpness stored for an edge; 0 if no sharpness is stored or the stored value is negative.
     #[inline]
     fn stored(&self, e: EdgeId) -> f64 {
         self.edges.map_or(0.0, |s| s[e.index()].max(0.0))
@@ -259,8 +259,8 @@ impl<'a> Sharpness<'a> {
         SemiSharp::of(self.creasing, edges.map(|h| self.edge(h.edge())))
     }
 
-    /// The next level divides the edge of `h` into two parts. Returns the sharpness of the part at the origin of `h`,
-    /// as it shapes the surface.
+    /// The next level divides the edge of `h` into two parts. Returns the sharpness with which the part at the origin
+    /// of `h` shapes the surface. On the boundary, this sharpness is infinite.
     pub(crate) fn of_half(&self, h: HalfEdgeId) -> f64 {
         let semi_sharp = self.semi_sharp(self.mesh.origin(h));
         semi_sharp.half_of(self.edge(h.edge()))

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use mesh::{Connectivity, DVec4, EdgeId, FaceId, HalfEdgeId, Mesh};
 use progress::{Cancelled, Meter};
 
-/// Computes the connectivity of the next subdivision level, and the old element that each new element comes from. The
+/// Computes the connectivity of the next subdivision level, and the old element from which each new element comes. The
 /// old mesh has no deleted elements.
 pub(crate) trait Topology: Sync {
     /// Computes the connectivity of the next level.
@@ -14,22 +14,22 @@ pub(crate) trait Topology: Sync {
     /// Half-edge `i` of the next level represents a corner. Returns the location of this corner in the old mesh.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place;
 
-    /// Returns the id of the old vertex that vertex `i` of the next level comes from. Vertex `i` is new if the result
+    /// Returns the id of the old vertex from which vertex `i` of the next level comes. Vertex `i` is new if the result
     /// is `None` or is not the id of an old vertex. The default returns `i`, because old vertices keep their ids in
     /// most schemes.
     fn vertex(&self, i: usize) -> Option<usize> {
         Some(i)
     }
 
-    /// Returns the old edge that new edge `i` is a part of, if any.
+    /// If new edge `i` is a part of an old edge, returns the old edge.
     fn edge(&self, i: usize) -> Option<usize>;
 
-    /// Returns the old face that new face `i` is a part of, if any.
+    /// If new face `i` is a part of an old face, returns the old face.
     fn face(&self, i: usize) -> Option<usize>;
 
-    /// If edge `i` of the next level is the part at one end of an old edge, returns the half-edge of the old edge that
-    /// starts at this end. The default is for schemes that split each edge in two, and in which the parts of old edges
-    /// have lower ids than all other edges.
+    /// Edge `i` of the next level can be the part at one end of an old edge. In this case, returns the half-edge of the
+    /// old edge that starts at this end. The default is for schemes that split each edge in two, and in which the parts
+    /// of old edges have lower ids than all other edges.
     fn half(&self, i: usize) -> Option<HalfEdgeId> {
         self.edge(i).map(|_| HalfEdgeId::new(i))
     }
@@ -74,8 +74,8 @@ pub(crate) fn place_near_origin(mesh: &Mesh, h: HalfEdgeId, n: u32) -> Place {
     }
 }
 
-/// Calls `add` with each old corner on which the value of the new corner at `place` depends, and with its weight. All
-/// old corners that are passed to `add` belong to one face. The value is their weighted mean.
+/// The value of the new corner at `place` is a weighted mean of the values of old corners. Calls `add` with each of
+/// these old corners and its weight. All of them belong to one face.
 pub(crate) fn add_linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f64)) {
     match place {
         Place::At(h) => add(h.index(), 1.0),

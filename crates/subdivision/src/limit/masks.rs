@@ -1,5 +1,5 @@
 //! The limit masks of a settled star. A star is a vertex and its neighborhood. A star is settled if it has no
-//! semi-sharp elements, whose sharpness would change from level to level.
+//! semi-sharp elements. (The sharpness of a semi-sharp element changes from level to level.)
 
 use std::f64::consts::{PI, TAU};
 
@@ -23,7 +23,8 @@ pub(crate) struct Sector {
 }
 
 impl Sector {
-    /// Returns the sector that contains face `face`, up to the next sharp spokes on both sides.
+    /// Returns the sector that contains face `face`. On each side of this face, the sector extends to the next sharp
+    /// spoke.
     pub(crate) fn of_face(star: &Star, face: usize) -> Self {
         let n = star.spokes.len();
         let is_sharp = |i: usize| star.spoke_sharpness[i % n] > 0.0;

@@ -1,4 +1,5 @@
-//! Smoothing in local refinement: the weights of the old vertices in each new vertex (the masks).
+//! Smoothing in local refinement: the masks, which contain the weight of each old vertex that contributes to a new
+//! vertex.
 
 use mesh::DVec3;
 use progress::{Cancelled, Meter};

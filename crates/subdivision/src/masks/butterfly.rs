@@ -117,8 +117,8 @@ impl ButterflyMasks<'_> {
         }
     }
 
-    /// Calls `add` with the weights of old vertices in the new vertex on a boundary edge. `h` is the half-edge of this
-    /// edge without a face.
+    /// Calls `add` for each old vertex that contributes to the new vertex of a boundary edge, with its weight. `h` is
+    /// the boundary half-edge of this edge.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.0;
         add(mesh.origin(mesh.prev(h)).index(), -0.0625);

@@ -62,7 +62,7 @@ impl Masks for LoopMasks<'_> {
 }
 
 impl LoopMasks<'_> {
-    /// Calls `add` with the weights of old vertices in the new vertex on an edge.
+    /// Calls `add` for each old vertex that contributes to the new vertex of an edge, with its weight.
     #[inline]
     fn on_edge(&self, e: EdgeId, add: &mut impl FnMut(usize, f64)) {
         let [h, twin] = e.half_edges();

@@ -25,7 +25,7 @@ impl Masks for MidpointMasks<'_> {
     }
 }
 
-/// Calls `add` with each corner of a face. The corners have equal weights with the sum `weight`.
+/// Calls `add` with each corner of a face. All corners have the same weight, and the weights sum to `weight`.
 #[inline]
 pub(crate) fn center(mesh: &Mesh, f: FaceId, weight: f64, add: &mut impl FnMut(usize, f64)) {
     let part = weight / mesh.degree(f) as f64;

@@ -54,8 +54,8 @@ impl Sqrt3<'_> {
         }
     }
 
-    /// Calls `add` with the weights of old vertices in the new vertex on the boundary edge of `h`. The new vertex is at
-    /// a third of the way from the origin of `h` to its target.
+    /// The boundary edge of `h` gets a new vertex at a third of the way from the origin of `h` to its target. Calls
+    /// `add` for each old vertex that contributes to the new vertex, with its weight.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.mesh;
         // h can be either half-edge of the boundary edge.

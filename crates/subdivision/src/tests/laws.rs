@@ -1,4 +1,4 @@
-//! Properties of Loop subdivision, of its connectivity and positions, on every mesh.
+//! Properties of the connectivity and the positions after Loop subdivision.
 
 use geometry::shapes;
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};

@@ -1,4 +1,4 @@
-//! Tests the limit surface: it is the same from every level, and agrees with known surfaces.
+//! Tests the limit surface: all levels have the same limit surface, and it agrees with known surfaces.
 
 use geometry::shapes;
 use mesh::{CREASE, DVec3, Mesh, VERTEX_SHARPNESS, VertexId};

@@ -18,7 +18,7 @@ use crate::split::{self, Place};
 /// How a value changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// The value is smoothed with the weights of the position of its vertex.
+    /// The value is smoothed with the same weights as the position of its vertex.
     Regular,
     /// The value does not change.
     Corner,
@@ -346,7 +346,7 @@ struct Vertex<'a> {
 }
 
 impl Vertex<'_> {
-    /// Returns the index and the new value of each value at the vertex.
+    /// For each value at the vertex, returns its index and its new value.
     fn refined(&self) -> Vec<(usize, DVec2)> {
         let Self {
             charts,
@@ -364,8 +364,8 @@ impl Vertex<'_> {
         let number = |k: usize| match (states[k], next[k]) {
             (State::Regular, _) => self.regular(values[k]),
             (_, State::Crease) => {
-                // If a value depends on the other value at the vertex, it is blended with the weight of the other
-                // value.
+                // If a value depends on the other value at the vertex, the other value determines the weight of the
+                // blend.
                 let source = if states[k] == State::Dependent {
                     1 - k
                 } else {
@@ -384,8 +384,8 @@ impl Vertex<'_> {
         (0..values.len()).map(|k| (values[k], number(k))).collect()
     }
 
-    /// Returns the weight of the old value in the blend of the old value and the smoothed value. The weight is computed
-    /// from the sharpness of the edges between the faces that share the value.
+    /// The old value is blended with the smoothed value. Returns the weight of the old value. It depends on the
+    /// sharpness of the vertex and of the edges between the faces that share the value.
     fn fraction(&self, value: usize) -> f64 {
         let span = self.charts.span(self.v, value, self.adjacency);
         self.sharpness.fraction(self.v, &span.inner)
@@ -399,7 +399,7 @@ impl Vertex<'_> {
         0.75 * charts.values[value] + 0.125 * ends
     }
 
-    /// Smooths a value with the weights of the position of its vertex, and returns the result.
+    /// Smooths a value with the same weights as the position of its vertex, and returns the result.
     fn regular(&self, value: usize) -> DVec2 {
         let Self {
             charts,

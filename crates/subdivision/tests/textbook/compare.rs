@@ -9,7 +9,8 @@ use crate::polygons::{Polygons, edge};
 /// The tolerance for equal numbers. For positions, the tolerance is relative to the size of the mesh.
 const TOLERANCE: f64 = 1e-12;
 
-/// Converts polygon lists to a mesh, with columns for sharpness, corner values and, as colors, positions.
+/// Converts polygon lists to a mesh with columns for sharpness and corner values. Each vertex also has its position as
+/// its color.
 pub(crate) fn mesh_of(polygons: &Polygons) -> Mesh {
     let number = |&v: &usize| u32::try_from(v).expect("few vertices");
     let faces: Vec<Vec<u32>> = polygons

@@ -84,7 +84,7 @@ fn disk(n: usize, wide: bool) -> Polygons {
     Polygons::new(positions, faces)
 }
 
-/// Returns a disk of quads around a vertex of valence n, whose outer corners have one face.
+/// Returns n quads around a vertex. Each outer corner of this disk belongs to only one quad.
 fn star(n: usize) -> Polygons {
     let mut positions = vec![DVec3::ZERO];
     positions

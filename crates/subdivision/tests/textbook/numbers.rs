@@ -12,7 +12,7 @@ use crate::textbook;
 const LOOP: Scheme = Scheme::Loop(LoopWeights::Warren);
 const MARK: Attribute<VertexId, f64> = Attribute::new("mark", Rule::Copy);
 
-/// Returns a mesh whose vertices and faces are marked with their ids, counted from 1, and its next level.
+/// Returns a mesh and its next level. Before the subdivision, each vertex and each face is marked with its id plus 1.
 fn marked(mesh: &Polygons, scheme: Scheme) -> (Mesh, Mesh) {
     let mut mesh = mesh_of(mesh);
     let marks = (0..mesh.n_vertices()).map(|i| i as f64 + 1.0).collect();

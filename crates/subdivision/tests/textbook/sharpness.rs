@@ -193,7 +193,7 @@ impl Sharpness {
         }
     }
 
-    /// Returns the weight of the midpoint in the new vertex on an edge.
+    /// The new vertex on an edge is a blend of the midpoint and the smooth point. Returns the weight of the midpoint.
     pub(crate) fn of_new_vertex(&self, (a, b): Edge) -> f64 {
         let s = self.of_edge(a, b);
         let stays = self.creasing == Creasing::Chaikin

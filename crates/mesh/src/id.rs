@@ -154,7 +154,7 @@ impl EdgeId {
     }
 }
 
-/// The kind of element that the values of an attribute column belong to.
+/// The kind of element to which the values of an attribute column belong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Domain {
     /// One value for each vertex.

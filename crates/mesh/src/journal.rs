@@ -28,7 +28,7 @@ use crate::{Connectivity, Domain, Id, Mesh, Values, VertexId};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Change {
     entries: Vec<Entry>,
-    /// The bytes of the overwritten positions and attribute values, in the order of the entries that they belong to.
+    /// The bytes of the overwritten positions and attribute values, in the order of their entries.
     values: Vec<u8>,
 }
 
@@ -40,7 +40,7 @@ impl Change {
             .all(|entry| matches!(entry, Entry::Level(_)))
     }
 
-    /// Returns the size of the change in bytes, without the copies of whole arrays that it can contain.
+    /// Returns the size of the change in bytes. Copies of whole arrays, which a change can contain, do not count.
     pub fn bytes(&self) -> usize {
         size_of_val(self.entries.as_slice()) + self.values.len()
     }
@@ -179,7 +179,8 @@ impl Journal {
         inner
     }
 
-    /// Whether changes of this element must be recorded, because the element is older than the innermost level.
+    /// Whether changes of this element must be recorded. This is the case if the element is older than the innermost
+    /// level and this level has no copy of the whole mesh.
     #[inline]
     fn needs_entry<I: Id>(&self, element: I) -> bool {
         element.index() < self.lengths[I::DOMAIN as usize]

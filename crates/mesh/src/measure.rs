@@ -162,8 +162,7 @@ impl Mesh {
         self.edges().all(|e| !self.is_boundary_edge(e))
     }
 
-    /// Returns one half-edge of each boundary loop, namely its half-edge with the lowest id. The result is in order of
-    /// ids.
+    /// Returns, for each boundary loop, the half-edge with the lowest id. These half-edges are in order of ids.
     pub fn boundary_loops(&self) -> Vec<HalfEdgeId> {
         let mut is_visited = vec![false; self.connectivity.next.len()];
         let mut loops = Vec::new();

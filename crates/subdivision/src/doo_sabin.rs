@@ -41,7 +41,7 @@ use crate::links::{self, Link, Links};
 use crate::subset::Subset;
 use crate::topology::{Place, Topology, place_near_origin};
 
-/// A mesh without deleted elements, with the subsets of elements that need special treatment.
+/// A mesh without deleted elements. The subsets contain the elements that need special treatment.
 pub(crate) struct DooSabin<'a> {
     pub(crate) mesh: &'a Mesh,
     n_edges: usize,

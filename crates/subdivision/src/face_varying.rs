@@ -360,8 +360,8 @@ impl VertexPieces {
         [now, decreased(now)]
     }
 
-    /// Returns the weight of this level's rule in the blend with the next level's rule. The weight is the mean
-    /// sharpness of the elements whose sharpness falls to 0 on the next level, but at most 1.
+    /// Returns the weight of this level's rule in the blend with the next level's rule. Some elements are sharp on this
+    /// level and smooth on the next level. The weight is their mean sharpness, limited to 1.
     fn weight(&self, field: &Field, piece: &Piece) -> f64 {
         let edges = piece.inside.iter().map(|&h| field.edge_sharpness(h));
         fading_weight(edges.chain([self.sharpness(field)]))

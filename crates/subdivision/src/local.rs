@@ -27,9 +27,8 @@
 //!
 //! # Polygons
 //!
-//! Chosen faces are cut into one quad for each corner. A neighboring face that is not chosen is not cut. The new
-//! vertices on the edges between this neighboring face and chosen faces become additional corners of the neighboring
-//! face.
+//! Chosen faces are cut into one quad for each corner. A neighboring face that is not chosen is not cut. It gets
+//! additional corners: the new vertices on its common edges with chosen faces.
 
 mod builder;
 mod closure;

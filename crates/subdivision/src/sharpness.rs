@@ -136,9 +136,9 @@ pub(crate) fn decreased(s: f64) -> f64 {
     }
 }
 
-/// Returns the weight of this level's rule in the blend with the next level's rule. The weight is the mean sharpness of
-/// the elements whose sharpness falls to 0 on the next level, but at most 1. Each pair in `pairs` has the sharpness of
-/// an element on this level and on the next level.
+/// Returns the weight of this level's rule in the blend with the next level's rule. Some elements are sharp on this
+/// level and smooth on the next level. The weight is their mean sharpness, limited to 1. Each pair in `pairs` has the
+/// sharpness of an element on this level and on the next level.
 pub(crate) fn fading_weight(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
     let (mut sum, mut n) = (0.0, 0_u32);
     for [now, next] in pairs {

@@ -106,8 +106,8 @@ pub(crate) fn linear_value(mesh: &Mesh, place: Place, old: &[DVec4]) -> DVec4 {
     sum
 }
 
-/// Computes the Doo-Sabin point of the corner at the origin of `h`. Calls `add` for each corner of the face of `h`,
-/// with the half-edge that starts at the corner and with the weight of the corner.
+/// Computes the Doo-Sabin point of the corner at the origin of `h`. Calls `add(half_edge, weight)` for each corner of
+/// the face of `h`. The half-edge starts at the corner.
 #[inline]
 pub(crate) fn add_doo_sabin(mesh: &Mesh, h: HalfEdgeId, mut add: impl FnMut(HalfEdgeId, f64)) {
     let n = mesh.loop_half_edges(h).count();

@@ -28,12 +28,13 @@ const MORPH_TANGENT: &str = "morph_tangent:";
 /// changed attribute, a colon and the number of the morph target follow.
 const MORPH_VALUE: &str = "morph_";
 
-/// Returns the name of the attribute with the weights of a joint, one `f64` for each vertex.
+/// Returns the name of the attribute that stores the weights of a joint. The attribute has one `f64` for each vertex.
 pub fn joint_name(joint: usize) -> String {
     format!("{JOINT}{joint}")
 }
 
-/// Returns the name of the attribute with the deltas of a morph target, a vector for each vertex.
+/// Returns the name of the attribute that stores the deltas of a morph target. The attribute has one vector for each
+/// vertex.
 pub fn morph_name(target: usize) -> String {
     format!("{MORPH}{target}")
 }
@@ -112,7 +113,7 @@ fn number(digits: &str) -> Option<usize> {
 }
 
 impl Attributes {
-    /// Returns the joints that have weights, in ascending order, with the weight of each vertex.
+    /// Returns the joints that have weights, in ascending order. Each joint has a list with the weight of each vertex.
     pub fn joints(&self) -> Vec<(usize, &[f64])> {
         let columns = self.of(Domain::Vertex).iter();
         let joints = columns.filter_map(|column| match &column.values {
@@ -124,7 +125,7 @@ impl Attributes {
         joints
     }
 
-    /// Returns the morph targets in ascending order, with the delta of each vertex.
+    /// Returns the morph targets in ascending order. Each target has a list with the delta of each vertex.
     pub fn morphs(&self) -> Vec<(usize, &[DVec3])> {
         let columns = self.of(Domain::Vertex).iter();
         let morphs = columns.filter_map(|column| match &column.values {

@@ -214,8 +214,8 @@ impl Values {
         each!(self, v => bytes.extend(bytemuck::bytes_of(&v[i])));
     }
 
-    /// Removes a value that [`push_bytes`](Self::push_bytes) appended from the end of `bytes`, and stores it
-    /// at `i`.
+    /// Stores the last value of `bytes` at `i`, and removes the value from `bytes`. [`push_bytes`](Self::push_bytes)
+    /// must have appended this value.
     pub(crate) fn pop_bytes(&mut self, i: usize, bytes: &mut Vec<u8>) {
         each!(self, v => v[i] = pop_value(bytes));
     }

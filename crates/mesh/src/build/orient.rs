@@ -8,10 +8,10 @@
 //!    +-------+-------+           +-------+-------+
 //! ```
 //!
-//! Neighbors are polygons that share an edge with exactly two sides. Polygons that are connected through such edges
-//! form a part. If the polygons of a part can get a consistent orientation, they form two groups. The first group has
-//! the same orientation as the first polygon of the part, and the second group the opposite orientation. The smaller
-//! group is reversed. If both groups have the same size, the second group is reversed.
+//! Two polygons are neighbors if they share an edge that has exactly two sides. Polygons that are connected through
+//! such edges form a part. If the polygons of a part can get a consistent orientation, they form two groups. The first
+//! group has the same orientation as the first polygon of the part, and the second group the opposite orientation. The
+//! smaller group is reversed. If both groups have the same size, the second group is reversed.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -26,8 +26,7 @@ use crate::parallel::BLOCK;
 pub(super) struct Orientation {
     /// The polygons to reverse, in order.
     pub(super) reversed: Vec<usize>,
-    /// For each part without a consistent orientation, its first polygon. No polygon of these parts is
-    /// reversed.
+    /// The first polygon of each part that has no consistent orientation. No polygon of these parts is reversed.
     pub(super) unorientable: Vec<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! Stores the polygons that a mesh is built from, validates them, and finds the neighbors of their corners.
+//! Stores the polygons from which a mesh is built, validates the polygons, and finds the neighbors of their corners.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -18,11 +18,11 @@ const MAX_COMPARED: usize = 32;
 /// [`set`](Self::set).
 #[derive(Default)]
 pub(super) struct Star {
-    /// For each corner, the corner before it in its polygon, as an index into the corners of all polygons.
+    /// For each corner, the previous corner of its polygon, as an index into the corners of all polygons.
     pub(super) before: Vec<u32>,
-    /// For each corner, the vertex of the corner before it in its polygon.
+    /// For each corner, the vertex of the previous corner of its polygon.
     from: Vec<u32>,
-    /// For each corner, the vertex of the corner after it in its polygon.
+    /// For each corner, the vertex of the next corner of its polygon.
     to: Vec<u32>,
     /// For each corner, the next corner clockwise around the vertex, as an index into these lists; `NONE` on the
     /// boundary.

@@ -3,8 +3,8 @@
 use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// Connects two holes by a band of faces. `h` is a half-edge of one hole, and `g` is a half-edge of the other: both
-    /// have no face.
+    /// Connects two holes by a band of faces. `h` is a half-edge of one hole, and `g` is a half-edge of the other.
+    /// Neither of them has a face.
     ///
     /// ```text
     ///    --d <-g-- c--          --d --- c--         a is joined to d, the target of g, and b to c.

@@ -23,13 +23,13 @@ impl Mesh {
     /// E + F stays the same. No ids are added, and all other elements keep their ids.
     ///
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not interpolate:
-    /// these keep their values at v. The corners at v of the faces beside `e` are interpolated within their face,
-    /// separately on each side of a seam. A face that is not beside `e` can also have a corner at an end of `e`. For
-    /// each attribute, the old value of this corner is compared with the old values of the faces beside `e` at the same
-    /// end. If the old value of one of these faces is equal, the corner gets the new value of this face at v.
-    /// Otherwise, the corner keeps its old value. When two edges become one, the remaining edge gets the larger of the
-    /// two values of each floating-point attribute, so that creases are preserved. A tag is set if either edge had this
-    /// tag. Attributes of other types keep the value of the remaining edge.
+    /// these keep their values at v. At v, the corners of the faces beside `e` get interpolated values. Each corner is
+    /// interpolated within its face, so both sides of a seam stay separate. A face that is not beside `e` can also have
+    /// a corner at an end of `e`. For each attribute, the old value of this corner is compared with the old values of
+    /// the faces beside `e` at the same end. If the old value of one of these faces is equal, the corner gets the new
+    /// value of this face at v. Otherwise, the corner keeps its old value. When two edges become one, the remaining
+    /// edge gets the larger of the two values of each floating-point attribute, so that creases are preserved. A tag is
+    /// set if either edge had this tag. Attributes of other types keep the value of the remaining edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
@@ -250,8 +250,9 @@ impl Mesh {
         Ok(())
     }
 
-    /// Requires that the merged vertex would have only two edges and two faces. Returns whether these two faces would
-    /// lie back to back. Two faces lie back to back if every vertex of one of them has only two edges.
+    /// Requires that the collapse would leave exactly two edges and two faces at the merged vertex. Returns whether
+    /// these two faces would lie back to back. Two faces lie back to back if every vertex of one of them has only two
+    /// edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
         // Finds one of the two faces at the merged vertex. A face beside e remains after the collapse if it is not a
@@ -318,7 +319,7 @@ impl Mesh {
         }
     }
 
-    /// Sets the values of the corners at both ends of `e` for a collapse to the point at `t` on `e`.
+    /// The edge `e` will collapse to the point at `t` on it. Sets the values of the corners at both ends of `e`.
     fn mix_corners_along(&mut self, e: EdgeId, t: f64, v: VertexId) {
         if !self.has_corner_columns() {
             return;

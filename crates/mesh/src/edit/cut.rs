@@ -114,9 +114,8 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Returns the edges of `edges` that would become slits if all of `edges` were cut, in order of ids. An
-    /// edge becomes a slit if both of its ends are inside the mesh and no other edge of `edges` has one of
-    /// these ends.
+    /// If all of `edges` were cut, some of them would become slits. Returns these edges in order of ids. An edge
+    /// becomes a slit if both of its ends are inside the mesh and no other edge of `edges` has one of these ends.
     ///
     /// # Panics
     ///

@@ -27,8 +27,7 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
         outgoing.push((b, (a + n - b) % n, n + 2 * k + 1));
     }
     outgoing.sort_unstable();
-    // A half-edge that ends at a corner is followed by the next outgoing half-edge at that corner, going
-    // clockwise.
+    // A half-edge that ends at a corner is followed by the next outgoing half-edge, clockwise around this corner.
     let mut next: Vec<usize> = (1..=n).map(|i| i % n).collect();
     next.resize(n + outgoing.len(), 0);
     let twin = |h: usize| n + ((h - n) ^ 1);

@@ -150,8 +150,8 @@ impl Mesh {
         Ok(merged)
     }
 
-    /// The spokes are outgoing half-edges of one vertex. Returns the half-edges of the faces of the spokes, without the
-    /// half-edges that start or end at this vertex.
+    /// The spokes are outgoing half-edges of one vertex. Returns the half-edges of all faces that have a spoke, except
+    /// half-edges that start or end at the vertex.
     fn rim_around(&self, spokes: impl Iterator<Item = HalfEdgeId>) -> Vec<HalfEdgeId> {
         let mut rim = Vec::new();
         for spoke in spokes.filter(|&h| self.face(h).is_some()) {

@@ -21,9 +21,9 @@ impl Mesh {
     /// its front and the new face as its back. No vertices or edges are added, and all ids stay the same.
     ///
     /// The new face has the values of the face beside `h`. Each new corner lies at the origin of a half-edge of the
-    /// hole. The corner has the values of the corner at the same vertex in the face on the other side of that
-    /// half-edge. Therefore, an edge of the hole becomes a seam only if the existing corners at one of its ends already
-    /// had different values.
+    /// hole. The corner copies the values of an existing corner: the corner at the same vertex, in the face on the
+    /// other side of this half-edge. Therefore, an edge of the hole becomes a seam only if the existing corners at one
+    /// of its ends already had different values.
     ///
     /// Returns the new face.
     ///

@@ -116,7 +116,8 @@ mod tests {
     use crate::{COLOR, FaceId, UV, VertexId, shapes};
     use glam::{DVec2, DVec4};
 
-    /// Returns the faces in order of ids, each with its vertices, starting at the vertex with the lowest id.
+    /// Returns the faces in order of ids. Each face has the list of its vertices, which starts with the vertex with the
+    /// lowest id.
     fn faces(mesh: &Mesh) -> Vec<(FaceId, Vec<VertexId>)> {
         let corners = |f| {
             let mut corners: Vec<VertexId> = mesh.face_vertices(f).collect();

@@ -108,7 +108,7 @@ fn of_one_face(edges: &[[usize; 2]], loops: &[&[usize]], outgoing: &[usize]) -> 
     mesh
 }
 
-/// Returns the faces in order of ids, each as its vertex indices starting with the lowest.
+/// Returns the faces in order of ids. Each face is a list of vertex indices that starts with the lowest index.
 pub(super) fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     let corners = |f| {
         let mut corners: Vec<_> = mesh.face_vertices(f).map(VertexId::index).collect();

@@ -24,7 +24,8 @@ pub(super) enum Cut {
 }
 
 impl Cut {
-    /// Returns how many new vertices and how many new edges are inside the face, and how many faces the face becomes.
+    /// Returns three numbers: the number of new vertices inside the face, the number of new edges inside the face, and
+    /// the number of parts of the face.
     pub(super) const fn counts(self) -> [u32; 3] {
         match self {
             Self::Whole | Self::Hanging => [0, 0, 1],

@@ -148,7 +148,7 @@ struct Span {
     size: usize,
     /// Whether the faces are not consecutive, or a seam runs between them.
     is_torn: bool,
-    /// For each edge between two of the faces, its end that is not the vertex.
+    /// For each edge between two of the faces, the end that is not the common vertex of the faces.
     inner: Vec<usize>,
     /// The corners of the first and the last face, counter-clockwise.
     ends: [(usize, usize); 2],

@@ -169,8 +169,8 @@ impl Sharpness {
     }
 
     /// If the rule of a vertex changes on the next level, the two rules are blended. Returns the weight of the current
-    /// rule. This weight is the mean sharpness, at most 1, of the elements that become smooth. The elements are the
-    /// vertex and its edges to `neighbors`.
+    /// rule. Of the vertex and its edges to `neighbors`, some elements become smooth. The weight is their mean
+    /// sharpness, limited to 1.
     pub(crate) fn fraction(&self, v: usize, neighbors: &[usize]) -> f64 {
         let mut ending = Vec::new();
         if self.vertices[v] > 0.0 && self.children[v] <= 0.0 {

@@ -109,7 +109,7 @@ fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usiz
             first_sides.push(c);
         }
     }
-    // A half-edge on the boundary is followed by the half-edge without a face that leaves its target.
+    // The boundary continues from each boundary half-edge to the boundary half-edge that leaves its target.
     let mut boundary = BTreeMap::new();
     for &c in first_sides.iter().filter(|&&c| twin[c].is_none()) {
         boundary.insert(origin_of(next[c]), half_edge[c].twin());

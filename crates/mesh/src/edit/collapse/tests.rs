@@ -98,7 +98,7 @@ fn two_triangles_vanish_and_the_documented_ids_remain() {
 #[test]
 fn the_end_with_the_lower_id_remains() {
     for is_reversed in [false, true] {
-        // The edge runs from 0 to 1 on the first face, and in the second round from 1 to 0.
+        // On the first face, the edge runs from 0 to 1 in the first round, and from 1 to 0 in the second round.
         let polygons: [&[u32]; 2] = if is_reversed {
             [&[1, 0, 2, 3], &[0, 1, 4]]
         } else {

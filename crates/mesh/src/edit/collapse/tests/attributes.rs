@@ -123,7 +123,8 @@ fn a_collapse_undoes_a_split() {
             let mut mesh = shape.clone();
             let m = mesh.split_edge(e, 0.25).unwrap();
             let ends = shape.edge_vertices(e);
-            // m has the highest id, so collapsing the edge between m and an end keeps this end.
+            // Each end of e has a lower id than m. Therefore, if the edge between m and an end collapses, this end
+            // remains.
             for v in ends {
                 let mut mesh = mesh.clone();
                 let half = edge(&mesh, v.index(), m.index());

@@ -93,11 +93,11 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Boundary`] if `e` is on the boundary, [`EditError::BoundaryVertex`] if one of its ends is
-    /// on the boundary, [`EditError::FewEdges`] if an end has fewer than three edges, [`EditError::DuplicateEdge`] if
-    /// another edge joins the ends, and [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1.
-    /// Returns [`EditError::NoSuchEdge`] if `e` does not exist, and [`EditError::Full`] if there are not enough ids for
-    /// the new elements. After an error, the mesh is unchanged.
+    /// Returns [`EditError::Boundary`] if `e` is on the boundary, and [`EditError::BoundaryVertex`] if an end of `e` is
+    /// on the boundary. Returns [`EditError::FewEdges`] if an end has fewer than three edges, and
+    /// [`EditError::DuplicateEdge`] if another edge joins the ends. Returns [`EditError::OutsideEdge`] if `fraction` is
+    /// not strictly between 0 and 1. Returns [`EditError::NoSuchEdge`] if `e` does not exist, and [`EditError::Full`]
+    /// if there are not enough ids for the new elements. After an error, the mesh is unchanged.
     pub fn bevel_edge(&mut self, e: EdgeId, fraction: f64) -> Result<FaceId, EditError> {
         self.bevel_edge_with(e, |_| fraction)
     }

@@ -31,10 +31,10 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::SameLoop`] if they lie on the same
-    /// loop, and [`EditError::DuplicateEdge`] if two vertices that would be joined already share an edge or are the
-    /// same vertex. Returns [`EditError::NoSuchHalfEdge`] if `h` or `g` does not exist, and [`EditError::Full`] if
-    /// there are not enough ids for the new elements. After an error, the mesh is unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, and [`EditError::SameLoop`] if they lie on the same
+    /// loop. Each new edge would join two vertices: returns [`EditError::DuplicateEdge`] if they already share an edge
+    /// or are the same vertex. Returns [`EditError::NoSuchHalfEdge`] if `h` or `g` does not exist, and
+    /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///

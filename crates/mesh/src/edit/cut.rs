@@ -40,7 +40,7 @@ impl Mesh {
     ///
     /// Returns [`EditError::Boundary`] if an edge is on the boundary, and [`EditError::DuplicateEdge`], with the ends
     /// of the edge, if an edge would become a slit. Returns [`EditError::EdgeListedTwice`] or [`EditError::NoSuchEdge`]
-    /// if an edge is listed twice or does not exist, [`EditError::NoElements`] if the list is empty, and
+    /// if an edge is listed twice or does not exist. Returns [`EditError::NoElements`] if the list is empty, and
     /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples

@@ -34,9 +34,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::WrongCorner`] if `y` does not leave the origin of `x`, [`EditError::Adjacent`] if `x` is
-    /// `y`, [`EditError::VisitsTwice`] if both corners belong to the same face, and [`EditError::BadNumber`] if a
-    /// coordinate is not finite. Returns [`EditError::NoSuchHalfEdge`] if `x` or `y` does not exist, and
+    /// Returns [`EditError::WrongCorner`] if `y` does not leave the origin of `x`, and [`EditError::Adjacent`] if `x`
+    /// is `y`. Returns [`EditError::VisitsTwice`] if both corners belong to the same face, and [`EditError::BadNumber`]
+    /// if a coordinate is not finite. Returns [`EditError::NoSuchHalfEdge`] if `x` or `y` does not exist, and
     /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples

@@ -69,7 +69,7 @@ fn corner_values_stay_within_their_own_triangle() {
             let [x, y, z] = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0];
             let parts = [0, 1, 2, 3].map(|k| around(&new, FaceId::new(4 * f.index() + k), new_uvs));
             assert_eq!(parts[..3], [[a, x, z], [b, y, x], [c, z, y]], "{name} {f}");
-            // Of the three edge midpoints x, y and z, the middle triangle starts at z.
+            // The corners of the middle triangle are the three edge midpoints. Its first corner is z.
             assert_eq!(parts[3], [z, x, y], "{name} {f}");
         }
         for h in new.half_edges().filter(|&h| new.face(h).is_none()) {

@@ -1,4 +1,4 @@
-//! Faces with many corners, whose corners are summed once and not for each new corner.
+//! Faces with many corners. The sums over all corners of a face are computed once, not again for each new corner.
 
 use geometry::shapes;
 use mesh::{Column, DVec2, DVec3, Domain, FaceId, HalfEdgeId, Mesh, Rule, UV, Values};
@@ -7,7 +7,7 @@ use progress::NoProgress;
 use super::{distance, level};
 use crate::{Rules, Scheme, Split, subdivision_matrix};
 
-/// Returns a closed cylinder between two polygons with 100 corners, whose vertices are moved irregularly. The texture
+/// Returns a closed cylinder between two polygons with 100 corners. The vertices are moved irregularly. The texture
 /// coordinates of each corner are the first two coordinates of its position.
 fn cylinder() -> Mesh {
     let mut mesh = shapes::cylinder(100, true);

@@ -113,8 +113,8 @@ pub fn vertex_areas(mesh: &Mesh) -> Vec<f64> {
     })
 }
 
-/// Returns the signed angle between the normals of the two faces at an edge, positive if the edge is convex. Returns
-/// 0 on the boundary.
+/// Returns the signed angle between the normals of the two faces at an edge, positive if the edge is convex. Returns 0
+/// for boundary edges.
 fn signed_dihedral(mesh: &Mesh, normals: &[DVec3], e: EdgeId) -> f64 {
     let [Some(f), Some(g)] = mesh.edge_faces(e) else {
         return 0.0;

@@ -23,7 +23,7 @@ const MAX_EXACT_EDGES: usize = 500;
 /// triangle is its area plus a shape term.
 const SHAPE_WEIGHT: f64 = 1e-6;
 
-/// Fills the hole of `h`, a half-edge without a face, with triangles.
+/// Fills a hole with triangles. `h` is a half-edge without a face, at the border of the hole.
 ///
 /// ```text
 ///    +-----+-----+          +-----+-----+
@@ -55,8 +55,8 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 ///
 /// # Errors
 ///
-/// Returns [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists. For a hole of more
-/// than 500 edges, this error does not mean that no triangulation exists: the search only tries one order of the
+/// Returns [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists. In a hole of more
+/// than 500 edges, a triangulation can exist despite this error, because the search tries only one order of the
 /// corners. Also returns [`EditError::Full`] and the errors of [`Mesh::fill_hole`]. After an error, the mesh is
 /// unchanged.
 pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
@@ -64,8 +64,9 @@ pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>
     mesh.fill_hole_by_ears(h, &ears)
 }
 
-/// Returns the vertices to cut off, in order, as indices into `rim`, the half-edges around the hole. The two vertices
-/// that remain at the end are not returned.
+/// Returns the vertices to cut off, in order. Each vertex is given as an index into `rim`, the list of the half-edges
+/// around the hole: the vertex is the origin of the half-edge with this index. The two vertices that remain at the end
+/// are not returned.
 fn ears(mesh: &Mesh, rim: &[HalfEdgeId]) -> Result<Vec<usize>, EditError> {
     let hole = Hole::of(mesh, rim);
     let ears = if rim.len() <= MAX_EXACT_EDGES {
@@ -85,8 +86,8 @@ struct Hole<'m> {
 }
 
 /// The cheapest triangulation of a part of the rim (consecutive vertices around the hole). The first number is the cost
-/// of the triangulation. The second number is a corner: it forms a triangle of the triangulation with the two ends of
-/// the part.
+/// of the triangulation. The second number is the index of a vertex of the part. This vertex and the two ends of the
+/// part are the corners of one of the triangles.
 type Best = (f64, usize);
 
 impl<'m> Hole<'m> {
@@ -197,8 +198,8 @@ impl<'m> Hole<'m> {
         let mut is_cut = vec![false; n];
         while ears.len() < n - 3 {
             let Reverse((_, ear, p, q)) = queue.pop()?;
-            // If the corner of an entry or a neighbor of the corner was cut off, the entry is out of date and is
-            // skipped. The queue has a newer entry for each corner that remains.
+            // An entry is out of date if its corner, or one of the two neighbors of the corner, was cut off. Entries
+            // that are out of date are skipped. The queue has a newer entry for each corner that remains.
             let is_outdated = is_cut[ear] || before[ear] != p || next[ear] != q;
             if is_outdated || self.is_joined(p, q) {
                 continue;
@@ -239,7 +240,7 @@ mod tests {
     use super::*;
     use crate::shapes;
 
-    /// Returns a mesh of one face, whose boundary is a hole through the given points.
+    /// Returns a mesh of one face with corners at the given points. The boundary of this face counts as a hole.
     fn sheet(points: &[DVec3]) -> Mesh {
         let corners: Vec<u32> = (0..u32::try_from(points.len()).unwrap()).rev().collect();
         Mesh::from_polygons(points.to_vec(), &[corners]).unwrap().0

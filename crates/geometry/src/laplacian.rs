@@ -47,8 +47,9 @@ const FACES: usize = 4096;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Laplacian {
-    /// The stiffness matrix, with one row for each vertex. The matrix is positive semidefinite, and each row adds up
-    /// to 0. The entry for the two ends of an edge is minus the weight of the edge. The entries have no unit.
+    /// The stiffness matrix, with one row for each vertex. The matrix is positive semidefinite, and each row adds up to
+    /// 0. The entry in the row of one end of an edge and in the column of the other end is minus the weight of the
+    /// edge. The entries have no unit.
     pub stiffness: SymmetricMatrix,
     /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit². Areas too large
     /// for an `f64` are replaced by its largest value, 1.8e308. The area is 0 for vertices without faces. For vertices
@@ -141,8 +142,8 @@ impl Laplacian {
     }
 }
 
-/// Returns the exponent of the largest power of two that is not above the largest absolute coordinate of the points.
-/// Returns 0 if all coordinates are 0, or if a coordinate is infinite.
+/// Returns the largest whole number n for which 2^n is at most the largest absolute coordinate of the points. Returns 0
+/// if all coordinates are 0, or if a coordinate is infinite.
 pub(crate) fn exponent(points: &[DVec3]) -> i32 {
     match parallel::fold(
         points.len(),
@@ -265,7 +266,8 @@ impl Pieces {
         }
         if self.has_virtual {
             // A spoke is an edge from a corner to the virtual vertex. Let s(i) be the weight of the spoke to corner i.
-            // The energy of values u at the corners is the sum over i of s(i) (u(i) - m)², where m is the mean of u.
+            // Let u(i) be the value at corner i, and m the mean of these values. The energy is the sum of s(i) (u(i) -
+            // m)² over all corners i.
             let total: f64 = self.spokes.iter().sum();
             let count = n as f64;
             for i in 0..n {
@@ -278,8 +280,7 @@ impl Pieces {
         }
     }
 
-    /// Appends the matrix entries of the energy `weight` times (u(i) - u(j))², where u are the values at the
-    /// vertices.
+    /// Appends the matrix entries of the energy `weight` times (u(i) - u(j))². Here u(i) is the value at corner i.
     fn edge(&self, i: usize, j: usize, weight: f64, entries: &mut Vec<(u32, u32, f64)>) {
         let [i, j] = [self.corners[i], self.corners[j]];
         if i != j {

@@ -1,5 +1,5 @@
-//! Algorithms on a [`Mesh`](mesh::Mesh). Most of these algorithms need more of the mesh than one element and its
-//! neighbors.
+//! Algorithms on a [`Mesh`](mesh::Mesh). Most of these algorithms work on large parts of the mesh, not only on one
+//! element and its neighbors.
 //!
 //! | items | contents |
 //! | --- | --- |

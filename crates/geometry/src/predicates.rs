@@ -3,7 +3,7 @@
 //! The results are the same as with exact arithmetic on the given coordinates. Source: Shewchuk, "Adaptive Precision
 //! Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, as implemented by the crate `robust`. The
 //! results are exact if the products of the differences of coordinates neither overflow nor underflow. No product
-//! overflows or underflows if every coordinate is 0 or from 1e-90 to 1e90 in magnitude.
+//! overflows or underflows if the absolute value of every coordinate is 0 or between 1e-90 and 1e90.
 
 use std::cmp::Ordering;
 

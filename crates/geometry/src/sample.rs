@@ -47,8 +47,8 @@ pub fn samples(
     if candidates.is_empty() || count == 0 {
         return Ok(Vec::new());
     }
-    // The largest possible radius of `count` equal disks that fill a flat region of this area, in the densest
-    // arrangement.
+    // The radius that `count` equal disks have if they are packed as densely as possible into a flat region of this
+    // area.
     let radius = (area / (2.0 * 3.0_f64.sqrt() * count as f64)).sqrt();
     // Two points that are closer than `least` are treated as if their distance were `least`. As a result, the points
     // are spread more evenly.
@@ -106,9 +106,9 @@ pub fn samples(
         .collect())
 }
 
-/// Returns the sort key for removal: the candidate with the largest weight comes first, and of equal weights, the
-/// candidate with the lowest index. The bits of a non-negative weight, read as an integer, have the same order as the
-/// weights.
+/// Returns the key by which the heap sorts the candidates. The candidate with the largest weight is removed first.
+/// Among candidates with the same weight, the one with the lowest index is removed first. Read as integers, the bits of
+/// non-negative weights have the same order as the weights.
 fn entry(weight: f64, i: usize) -> (u64, std::cmp::Reverse<usize>) {
     (weight.to_bits(), std::cmp::Reverse(i))
 }
@@ -144,7 +144,7 @@ fn candidates(mesh: &Mesh, n: usize, seed: u64) -> (Vec<Sample>, f64) {
     ((0..n).filter_map(sample).collect(), total)
 }
 
-/// Points, sorted into the cubic cells of a grid to find near points quickly.
+/// Points, sorted into the cubic cells of a grid. With the grid, the points near a given point are found quickly.
 struct Grid {
     points: Vec<DVec3>,
     size: f64,

@@ -75,8 +75,8 @@ impl<'a> Scaled<'a> {
     }
 }
 
-/// Returns the number n such that a mesh with coordinates up to about 2^`exponent` is divided by 2^n: `exponent`
-/// itself, or 0 if the mesh needs no scaling.
+/// Returns the number n for a mesh with coordinates up to about 2^`exponent`; the coordinates of the mesh are divided
+/// by 2^n. The result is `exponent`, or 0 if the mesh needs no scaling.
 fn ordinary(exponent: i32) -> i32 {
     if (-ORDINARY..ORDINARY).contains(&exponent) {
         0

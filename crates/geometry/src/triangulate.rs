@@ -351,8 +351,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let place = used.partition_point(|&u| u <= i);
         used.get(place).copied().unwrap_or(first)
     };
-    // The corners that are used by at least one triangle form a polygon. For each side of this polygon, `owner[i]` is
-    // the index of the triangle with this side, where i is the first corner of the side.
+    // The corners that are used by at least one triangle form a polygon. For the side of this polygon that starts at
+    // corner i, `owner[i]` is the index of the triangle with this side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {

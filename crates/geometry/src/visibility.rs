@@ -12,8 +12,9 @@ use crate::surface_index::SurfaceIndex;
 
 /// The distance from the surface at which rays start, as a fraction of the diagonal of the bounding box.
 const OFFSET: f64 = 1e-7;
-/// A ray that measures the thickness at a vertex starts on a face, near the vertex. The distance of this start from the
-/// vertex is at most twice this fraction of the length of the shorter of the two edges of the face at the vertex.
+/// A ray that measures the thickness at a vertex starts on a face, near the vertex. Let l be the length of the shorter
+/// one of the two edges of the face that meet at the vertex. The ray starts at a distance of at most 2 l times this
+/// number from the vertex.
 const INWARD: f64 = 1e-3;
 /// The number of vertices in a block. One thread computes the values of all vertices of a block.
 const BLOCK: usize = 256;

@@ -15,7 +15,7 @@ use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::values::{Blend, blended};
 
-/// The lower limit of the sine of the angle between a beveled edge and an edge that the bevel cuts. The distance from
+/// A lower limit for the sine of the angle between a beveled edge and an edge that the bevel cuts. The distance from
 /// the end of the cut edge to the cut is the bevel width divided by this sine. A smaller sine is replaced by this
 /// limit. Otherwise, an edge that is almost parallel to the beveled edge would be cut far from its end. At a corner
 /// between two beveled edges, the limit applies to the sine of half the angle of the corner.
@@ -52,8 +52,8 @@ pub struct Beveled {
 /// edges have a symmetry, the result has this symmetry too. An edge that is not beveled is shortened if it ends at a
 /// vertex of a beveled edge. A shortened edge that shares a face corner with a beveled edge is cut at the point whose
 /// distance from the beveled edge is `width`. Any other edge at an end of a beveled edge is cut at the distance `width`
-/// from that end. The distance between a cut and the removed end of the edge that is cut is at most four times the
-/// width. The bevel is therefore narrower next to an edge that forms a small angle with the beveled edge.
+/// from that end. No cut is further than four times the width from the removed end of the edge that is cut. The bevel
+/// is therefore narrower next to an edge that forms a small angle with the beveled edge.
 ///
 /// The vertices at the ends of beveled edges are removed. In the result, the remaining vertices come first, in their
 /// old order, followed by the new vertices. Faces keep their ids. The faces that replace edges come after the old
@@ -106,8 +106,8 @@ pub fn bevel_edges(mesh: &Mesh, edges: &[EdgeId], width: f64) -> Beveled {
     }
 }
 
-/// Returns the length of the shortest edge that shares a vertex with one of the given edges, including these edges
-/// themselves. Returns infinity if `edges` is empty.
+/// Returns the length of the shortest edge among the given edges and all edges that share a vertex with them. Returns
+/// infinity if `edges` is empty.
 pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
     let ends = edges.iter().flat_map(|&e| mesh.edge_vertices(e));
     let around = ends.flat_map(|v| mesh.vertex_half_edges(v));
@@ -118,13 +118,13 @@ pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
 #[derive(Clone, Copy)]
 struct Corner {
     vertex: u32,
-    /// The old corners whose values are averaged to get the values of this corner, with their weights. All of these old
-    /// corners belong to one face.
+    /// The old corners and their weights: each value of this corner is the weighted mean of the values of the old
+    /// corners. All of these old corners belong to one face.
     values: Blend<HalfEdgeId>,
 }
 
-/// A new vertex near the start of a half-edge: either on the half-edge, or inside the corner of its face between two
-/// beveled edges.
+/// A new vertex near the origin of a half-edge. The new vertex is either on the half-edge, or inside the face of the
+/// half-edge, at a corner between two beveled edges.
 #[derive(Clone, Copy)]
 struct Point {
     position: DVec3,
@@ -226,9 +226,9 @@ impl<'m> Bevel<'m> {
         }
     }
 
-    /// Returns the new vertex inside the corner of the face of `h` at the origin of `h`, if both edges of this corner
-    /// are beveled. The distance of this vertex from both edges is the width, or less if the angle of the corner is
-    /// small.
+    /// Returns the new vertex inside the face of a beveled half-edge `h`, near the origin of `h`. Returns `None` if the
+    /// other edge at this corner of the face is not beveled, or if `h` has no face. The distance of the new vertex from
+    /// both edges is the width, or less if the angle of the corner is small.
     fn inset(&self, h: HalfEdgeId) -> Option<Point> {
         let g = self.left(h).filter(|&g| self.is_chosen(g))?;
         let [a, b] = [h, g].map(|h| self.direction(h));
@@ -266,7 +266,7 @@ impl<'m> Bevel<'m> {
         })
     }
 
-    /// Returns the corners that replace the corner of `h`, a half-edge with a face.
+    /// Returns the corners that replace the corner of `h`. The half-edge `h` must have a face.
     fn corners(&self, h: HalfEdgeId) -> Vec<Corner> {
         let mesh = self.mesh;
         if let Some(vertex) = self.kept[mesh.origin(h).index()] {
@@ -409,7 +409,8 @@ impl<'m> Bevel<'m> {
         blocked
     }
 
-    /// Returns the positions of the two ends of the polygon side that replaces `h`, a half-edge with a face.
+    /// Returns the positions of the two ends of the side that replaces `h` in the new polygon. The half-edge `h` must
+    /// have a face.
     fn side(&self, h: HalfEdgeId) -> [DVec3; 2] {
         let point = |h: HalfEdgeId| self.points[h.index()].map(|point| point.position);
         let from = point(h).or_else(|| point(self.mesh.prev(h).twin()));

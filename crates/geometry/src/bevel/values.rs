@@ -6,10 +6,10 @@ use mesh::{Attributes, Domain, EdgeId, FaceId, HalfEdgeId, Id, Rule, VertexId};
 /// add up to 1.
 pub(super) type Blend<I> = [(I, f64); 3];
 
-/// Returns the attributes of the beveled mesh. For each element of the beveled mesh, the four lists name the elements
-/// of the old mesh from which its values are computed. The entry of a half-edge without a face is `None`. The entry of
-/// an edge that does not come from an old edge is [`EdgeId::NONE`]. Values that cannot be averaged are copied from the
-/// first element of the [`Blend`].
+/// Returns the attributes of the beveled mesh. The four lists tell from which old elements the values of each vertex,
+/// corner, edge and face of the beveled mesh are computed. The entry of a half-edge without a face is `None`. The entry
+/// of an edge that does not come from an old edge is [`EdgeId::NONE`]. Values that cannot be averaged are copied from
+/// the first element of the [`Blend`].
 pub(super) fn blended(
     old: &Attributes,
     vertices: &[Blend<VertexId>],

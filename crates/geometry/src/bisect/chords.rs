@@ -30,8 +30,9 @@ impl Corner {
     }
 }
 
-/// Returns chords, as pairs of corner indices, that cut the polygon so that no part has corners on both sides of the
-/// line. The polygon must have corners on both sides of the line. `normal` is the normal of the polygon.
+/// Returns chords that cut the polygon into parts, so that no part has corners on both sides of the line. A chord is a
+/// pair of corner indices. The polygon must have corners on both sides of the line. `normal` is the normal of the
+/// polygon.
 ///
 /// If the chords inside the polygon cannot be determined, or do not separate the two sides of the line, each chain of
 /// corners to the left of the line is cut off separately.
@@ -39,7 +40,7 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
     let n = corners.len();
     let is_good = |chords: &[[u32; 2]]| {
         let is_one_sided = |part: &Vec<usize>| {
-            // A half-edge index h below n, the number of corners, stands for the side of the polygon that starts at
+            // The number of corners is n. A half-edge index h below n stands for the side of the polygon that starts at
             // corner h.
             let sides = part.iter().filter(|&&h| h < n);
             let heights = sides.flat_map(|&i| [corners[i].height, corners[(i + 1) % n].height]);
@@ -138,7 +139,7 @@ fn sees_inside(before: &Corner, corner: &Corner, after: &Corner, normal: DVec3) 
     [contains(2) || contains(6), contains(4)]
 }
 
-/// Returns, for each chain of consecutive corners to the left of the line, the chord that cuts the chain off.
+/// Returns one chord for each chain of consecutive corners to the left of the line: the chord that cuts off this chain.
 fn left_chords(corners: &[Corner]) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_left = |i: usize| corners[i % n].height > 0.0;

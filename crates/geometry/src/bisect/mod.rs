@@ -65,8 +65,8 @@ pub struct Bisection {
 /// the face in front of the plane is cut off separately. If two faces share both edges that the plane crosses, each
 /// face gets a separate edge between the same two crossing points.
 ///
-/// If the normal of a face in the plane points to the back of the plane, the face counts as in front of the plane,
-/// because it bounds a solid in front of the plane. Any other face in the plane counts as behind the plane.
+/// A face can lie in the plane. If the normal of this face points to the back of the plane, the face counts as a face
+/// in front of the plane, because it bounds a solid there. Otherwise, the face counts as a face behind the plane.
 ///
 /// # Errors
 ///

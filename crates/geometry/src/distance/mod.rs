@@ -175,8 +175,8 @@ const BLOCK: usize = 1024;
 /// The result of measuring one block of faces.
 #[derive(Default)]
 struct Block {
-    /// The pieces (triangles) whose upper bounds exceed the largest distance of a vertex by more than the tolerance.
-    /// Only these pieces can be cut later.
+    /// Pieces (triangles) whose upper bounds exceed a limit: the largest distance measured at a vertex, plus the
+    /// tolerance. Only these pieces can be cut later.
     pieces: Vec<Piece>,
     /// An upper bound of the distances to the other surface from all points of the block that are in none of the
     /// `pieces`.
@@ -184,7 +184,7 @@ struct Block {
     farthest: Option<Farthest>,
     /// The sum of the areas of the triangles.
     area: f64,
-    /// The sum of the products of the area and the mean distance of each triangle.
+    /// A sum over the triangles: the area of each triangle times its mean distance.
     weighted: f64,
 }
 
@@ -293,8 +293,8 @@ impl Block {
         let distance = if rows > 1.0 {
             self.mean_over(&piece, triangle, rows, to, ask)?
         } else {
-            // The mean of the distance over the triangle, from its values at the center and the corners. The formula is
-            // exact if the distance is a quadratic function of the position.
+            // Computes the mean distance over the triangle from the distances at the center and at the corners. The
+            // formula is exact if the distance is a quadratic function of the position.
             let sum: f64 = corners.iter().map(|s| s.hit.distance).sum();
             0.75 * middle.hit.distance + sum / 12.0
         };

@@ -1,5 +1,5 @@
-//! Pieces of the triangles of the measured surface, with upper bounds on the distances of their points from the other
-//! surface.
+//! Pieces of the triangles of the measured surface. Each piece has an upper bound on the distances from its points to
+//! the other surface.
 
 use mesh::{DVec3, Element, FaceId, parallel};
 use progress::Cancelled;
@@ -24,7 +24,7 @@ pub(super) struct Piece {
     pub(super) upper: f64,
 }
 
-/// The sample with the largest distance from the other surface that was found so far.
+/// Of all samples so far, the one that is furthest from the other surface.
 #[derive(Clone, Copy)]
 pub(super) struct Farthest {
     pub(super) on: Element,
@@ -80,9 +80,9 @@ impl Piece {
     /// Returns an upper bound of the distances from all points of the piece to the other surface. The result is the
     /// minimum of these bounds:
     ///
-    /// 1. The largest distance from a corner of the piece to one triangle of the other surface, the same triangle for
-    ///    all corners. The distance to a triangle is a convex function of the point, so its maximum over the piece is
-    ///    at a corner.
+    /// 1. The largest distance from a corner of the piece to a certain triangle of the other surface. All corners are
+    ///    compared with the same triangle. The distance to a triangle is a convex function of the point, so its maximum
+    ///    over the piece is at a corner.
     /// 2. d + e, if the nearest points of the three corners lie on two triangles S and T with a common edge. The length
     ///    d is the largest distance from a corner of the piece to the other surface. Let N be the triangle that the
     ///    three nearest points span. Then no point of the piece is further than d from N. Two sides of N join a point
@@ -208,7 +208,7 @@ pub(super) fn refine(
     ask: &Ask,
 ) -> Result<(Farthest, f64), Cancelled> {
     let mut visits_left = MAX_VISITS;
-    // Limits the number of pieces in a round, so that all rounds together visit about `MAX_VISITS` nodes at most. The
+    // Limits the number of pieces in a round, so that all rounds together visit at most about `MAX_VISITS` nodes. The
     // number of nodes that a search visits is estimated from earlier searches.
     let visits = pieces.iter().map(|p| u64::from(p.corners[0].hit.visits));
     // Cutting a piece takes at most three searches for nearest points. The factor 5 instead of 3 leaves a margin.

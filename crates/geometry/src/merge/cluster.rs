@@ -25,7 +25,7 @@ const LEAF: usize = 8;
 /// processed in parallel.
 const TASK: usize = 8192;
 
-/// Returns, for each point, the lowest index of all points in the same cluster. A cluster is a set of points that are
+/// Returns, for each point, the lowest index of a point in the same cluster. A cluster is a set of points that are
 /// connected by steps of at most `distance`.
 ///
 /// Two points are one step apart if the rounded length of their difference is at most `distance`. `distance` must be

@@ -51,8 +51,8 @@ pub enum MergeError {
 /// Merges vertices that are at most `distance` apart. Also merges vertices that are further apart, if a chain of
 /// vertices connects them in steps of at most `distance`.
 ///
-/// Which vertices merge does not depend on the order of the vertices. The result does not depend on the number of
-/// threads. A distance of 0 merges only vertices with equal positions.
+/// The choice of the vertices that merge does not depend on the order of the vertices. The result does not depend on
+/// the number of threads. A distance of 0 merges only vertices with equal positions.
 ///
 /// [`merge_clusters`] describes what happens to vertices, edges, faces and attributes. If no two vertices
 /// merge, the mesh is unchanged.

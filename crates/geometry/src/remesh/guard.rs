@@ -19,9 +19,9 @@ use crate::surface_index::triangle::nearest_on_triangle;
 /// all points. The rest of the limit is a margin for the points between the samples.
 const SHARE: f64 = 0.7;
 
-/// The largest distance of samples of a new triangle from the original surface, as a fraction of the target length.
-/// This bound also applies if the caller gives no error limit. The bound prevents new edges from cutting through ridges
-/// of the surface that are not marked as features.
+/// The largest allowed distance between a sample of a new triangle and the original surface, as a fraction of the
+/// target length. This bound also applies if the caller gives no error limit. The bound prevents new edges from cutting
+/// through ridges of the surface that are not marked as features.
 const SOFT: f64 = 0.1;
 
 /// The tolerance of the distance that is measured at the end, as a fraction of the error limit.
@@ -55,8 +55,8 @@ impl Work<'_> {
     }
 }
 
-/// Measures the distance between the original and the result. Returns an upper bound of the distance if this bound is
-/// above the limit, and `None` otherwise.
+/// Measures the distance between the original and the result. The measurement gives an upper bound of the distance.
+/// Returns this bound if it is above the limit, and `None` otherwise.
 pub(super) fn excess(
     source: &Mesh,
     result: &Mesh,

@@ -104,8 +104,8 @@ impl Chain {
         }
     }
 
-    /// Returns the point that lies the arc length `way` after the point `from`, in the direction of the chain. Each
-    /// point is given by its arc length from the start of the chain.
+    /// Returns the point that is reached from the point `from` by moving along the chain by the arc length `way`; a
+    /// negative `way` moves backwards. Each point is given by its arc length from the start of the chain.
     pub(super) fn after(&self, from: f64, way: f64) -> f64 {
         let at = from + way;
         if self.is_closed && at >= self.length {

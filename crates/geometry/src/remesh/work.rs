@@ -23,8 +23,8 @@ pub(super) struct Work<'a> {
     pub(super) sizes: Vec<f64>,
     /// For each vertex, its target valence. Flips change the number of edges at the vertex towards this number.
     pub(super) valences: Vec<u8>,
-    /// For each vertex, whether the vertex can lie off the original surface: a split or a collapse placed the vertex,
-    /// and it has not moved since.
+    /// For each vertex, whether the vertex can lie off the original surface. This is true for a vertex that was placed
+    /// by a split or a collapse and has not moved since then.
     pub(super) is_off: Vec<bool>,
     /// For each edge that is a part of a line, its location on a chain (a line between two corners).
     pub(super) tracks: Vec<Option<Track>>,

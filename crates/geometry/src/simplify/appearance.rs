@@ -85,7 +85,7 @@ pub(super) type Pair = [u32; 2];
 pub(super) struct Around(Vec<(FaceId, [(VertexId, u32); 3])>);
 
 /// The faces around an edge before its collapse, and the pairs of wedges (groups of face corners at a vertex) that the
-/// collapse merges, with their new values.
+/// collapse merges. Each pair is listed with the values of the merged wedge.
 pub(super) type Merge = (Around, Vec<(Pair, Vec<f64>)>);
 
 impl Appearance {
@@ -140,7 +140,8 @@ impl Appearance {
         sum
     }
 
-    /// Returns the integral of the squared error of all attributes at a point, for the values with the least error.
+    /// Returns the integral of the squared error of all attributes if the vertex is placed at `point` and has the
+    /// values with the least error.
     pub(super) fn least_error(&self, pair: Pair, point: DVec3) -> f64 {
         let mut error = self.placing(pair).at(point);
         if self.n_placing < self.n {
@@ -150,8 +151,8 @@ impl Appearance {
         error
     }
 
-    /// Returns the integral of the squared error of all attributes at a point, for the interpolated values of the two
-    /// wedges. `t` is the weight of the second wedge, from 0 to 1.
+    /// Returns the integral of the squared error of all attributes if the vertex is placed at `point` and has values
+    /// that are interpolated between the two wedges. `t` is the weight of the second wedge, from 0 to 1.
     pub(super) fn error(&self, pair: Pair, point: DVec3, t: f64) -> f64 {
         let [a, b] = pair.map(|wedge| self.values_of(wedge));
         let area = self.area(pair);
@@ -184,8 +185,8 @@ impl Appearance {
         values
     }
 
-    /// Returns the values with the least error at a point, limited to the range of the values of the wedges in
-    /// `around`.
+    /// Returns the values with the least error if the vertex is placed at `point`. The values are limited to the range
+    /// of the values of the wedges in `around`.
     pub(super) fn best(&self, pair: Pair, around: &Around, point: DVec3) -> Vec<f64> {
         let area = self.area(pair);
         if area.is_nan() || area <= 0.0 {
@@ -244,7 +245,7 @@ impl Appearance {
     }
 
     /// Whether a collapse would turn a triangle over in the texture. `merged` lists the pairs of wedges (groups of face
-    /// corners at a vertex) that become one wedge, with the values of this wedge.
+    /// corners at a vertex) that the collapse merges. Each pair is listed with the values of the merged wedge.
     pub(super) fn turns(&self, around: &Around, merged: &[(Pair, Vec<f64>)]) -> bool {
         let new = |wedge: u32| {
             let merged = merged.iter().find(|(pair, _)| pair.contains(&wedge));
@@ -266,7 +267,7 @@ impl Appearance {
         })
     }
 
-    /// Updates the wedges (groups of face corners at a vertex) after a collapse from which the vertex `v` remains.
+    /// Updates the wedges (groups of face corners at a vertex) after a collapse. `v` is the vertex that remains.
     /// `around` has the faces before the collapse.
     pub(super) fn merge(
         &mut self,
@@ -320,7 +321,7 @@ mod tests {
     use mesh::UV;
     use proptest::prelude::*;
 
-    /// A square with waves and texture coordinates that are not linear, and its appearance.
+    /// A wavy square with texture coordinates that are not linear, and the appearance of this square.
     fn taken() -> (Mesh, Appearance) {
         let mut mesh = waves();
         let at = |h| {

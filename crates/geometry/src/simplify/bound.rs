@@ -4,7 +4,7 @@
 //! the old and the new triangles cover the same region exactly once. Then each point of the old triangles forms a pair
 //! with the point of the new triangles that is directly above or below it. A cell is the region that one old and one
 //! new triangle share. Within a cell, the distance between the two points of a pair is largest at a corner of the cell.
-//! The largest distance of all pairs bounds the Hausdorff distance in both directions. Source: Cohen, Manocha, Olano,
+//! The largest distance of all pairs is an upper bound of the Hausdorff distance. Source: Cohen, Manocha, Olano,
 //! "Simplifying Polygonal Models Using Successive Mappings", 1997.
 
 use mesh::{DVec3, EdgeId, FaceId};
@@ -95,9 +95,8 @@ struct Patch {
 const SLACK: f64 = 1e-9;
 
 impl Patch {
-    /// Returns, for each new triangle, a bound on its distance to the original surface. Returns `None` if the method
-    /// gives no bound. For a bound, the projections of the old and of the new triangles along the mean normal must
-    /// cover the same region exactly once.
+    /// Returns, for each new triangle, a bound on its distance to the original surface. The old and the new triangles
+    /// are projected along the mean normal. Returns `None` unless both projections cover the same region exactly once.
     fn bounds(&self) -> Option<Vec<f64>> {
         let twice_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
         let sum: DVec3 = self
@@ -127,9 +126,9 @@ impl Patch {
         if !all().all(faces_ahead) || n_turns(&new) > 1 {
             return None;
         }
-        // Seen along the projection, a point between the old and the new boundary is covered by either the old or the
-        // new triangles only. The distance of such a point from the triangles that do not cover the point is at most
-        // its distance from the boundary of these triangles.
+        // Seen along the projection, the points between the old and the new boundary are covered either only by the old
+        // triangles or only by the new triangles. The distance of a covered point from the triangles that do not cover
+        // it is at most the distance of the point from the boundary of these triangles.
         let beyond = self.cut.map_or(0.0, |(removed, [p, q])| {
             let largest = self
                 .old

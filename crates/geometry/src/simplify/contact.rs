@@ -71,7 +71,7 @@ impl Contacts {
         }
     }
 
-    /// Follows a change of the ids of faces. `map` contains the new id of each face.
+    /// Updates the tree after the ids of faces have changed. `map` contains the new id of each face.
     pub(super) fn renumber(&mut self, map: &[FaceId]) {
         for f in &mut self.faces {
             *f = map.get(f.index()).copied().unwrap_or(FaceId::NONE);

@@ -1,4 +1,4 @@
-//! Removes the values of elements that no longer exist from lists.
+//! Removes from lists the values of elements that no longer exist.
 
 use mesh::{Id, parallel};
 

@@ -43,8 +43,8 @@ pub enum Method {
         /// The factor of the first step, from 0 to 1. The method must be [stable](Method::is_stable) with the chosen
         /// `factor` and `pass_band`.
         factor: f64,
-        /// The pass band: the frequency below which the filter removes nothing, from 0 to 1. The frequencies of a mesh
-        /// are the eigenvalues of its normalized Laplacian, which are between 0 and 2.
+        /// The pass band, from 0 to 1: the filter does not remove frequencies below this number. The frequencies of a
+        /// mesh are the eigenvalues of its normalized Laplacian, which are between 0 and 2.
         pass_band: f64,
     },
     /// Solves (M + time L) x' = M x for the new positions x'. Here x are the old positions, L is the

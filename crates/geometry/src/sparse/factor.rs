@@ -23,8 +23,8 @@ use front::{Front, Update};
 
 /// The largest number of entries of a factor. This number of entries takes 16 GiB.
 const MAX_ENTRIES: u64 = 1 << 31;
-/// A solution is accepted if its residual is at most this number times the size of the terms. The size of the terms is
-/// the largest sum of the absolute values of the terms of one equation.
+/// A solution is accepted if its residual is at most this number times the size of the terms. To compute the size of
+/// the terms, the absolute values of the terms of each equation are added up, and the largest of these sums is taken.
 const MAX_RESIDUAL: f64 = 1e-9;
 /// The refinement of a solution stops when its relative residual is at most this number, when the residual hardly
 /// decreases, or after [`REFINEMENTS`] steps.
@@ -308,8 +308,8 @@ fn f64_max(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
 
-/// A unit of the elimination: a subtree, whose supernodes one thread eliminates, or a single supernode above the
-/// subtrees.
+/// A unit of the elimination: either a subtree, or a single supernode above the subtrees. One thread eliminates all
+/// supernodes of a subtree.
 struct Unit {
     range: std::ops::Range<usize>,
     is_subtree: bool,

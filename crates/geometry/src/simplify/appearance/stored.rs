@@ -149,7 +149,7 @@ impl Appearance {
         (total, (placing, normals))
     }
 
-    /// Follows a change of ids by [`Mesh::compact`].
+    /// Updates the stored attributes after [`Mesh::compact`] has changed the ids of elements.
     pub(in super::super) fn renumber(&mut self, map: &Renumbering) {
         let vertices = kept(&map.vertices);
         let edges = kept(&map.edges).into_iter();
@@ -197,7 +197,7 @@ impl Appearance {
 }
 
 /// Returns the weight by which the values of a column are multiplied: a power of two. `place` returns the scaled
-/// position of a vertex; the weight fits these scaled positions.
+/// position of a vertex. With this weight, errors of values can be compared with scaled distances.
 fn weight(mesh: &Mesh, domain: Domain, column: &Column, place: impl Fn(VertexId) -> DVec3) -> f64 {
     if column.rule == Rule::Normal {
         return inverse_power_of_two(1.0 / NORMAL);

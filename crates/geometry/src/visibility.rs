@@ -22,8 +22,8 @@ const BLOCK: usize = 256;
 /// Returns the thickness of the solid at each vertex, in scene units. Entry i belongs to the vertex with the index i.
 /// For each face around the vertex, a ray starts on the face near the vertex and runs inward at a right angle to the
 /// face until it leaves the solid. The thickness at a vertex is the length of the shortest ray. The thickness is
-/// infinite if no ray meets the surface again, for example on a flat sheet, or if all faces around the vertex have zero
-/// area.
+/// infinite if no ray meets the surface again, for example on a flat sheet. It is also infinite if all faces around the
+/// vertex have zero area.
 ///
 /// For a plate, the thickness at every vertex is the distance between the two sides of the plate, even at its edges and
 /// corners. Where closed parts of the surface overlap, a ray does not end at a point where it enters another part; it

@@ -254,9 +254,9 @@ impl<'m> Bevel<'m> {
         let sine = 2.0 * half_sine * half_cosine;
         let weight = |length: f64| {
             let weight = self.width / (sine * length);
-            // The weight of an edge is 1 or more if both edges of the corner are almost on one line, or if this edge is
-            // too short. A weight of 1 or more is replaced by 0. If the weights of both edges are 0, the point gets the
-            // values of the old vertex.
+            // The absolute value of a weight is 1 or more if both edges of the corner are almost on one line, or if the
+            // edge to which the weight belongs is too short. A weight of this size is replaced by 0. If the weights of
+            // both edges are 0, the point gets the values of the old vertex.
             if weight.abs() < 1.0 { weight } else { 0.0 }
         };
         Some(Point {

@@ -2,8 +2,8 @@
 //!
 //! The Hausdorff distance is the largest distance from a point of one surface to the other surface. The largest
 //! distance can be at a point inside a face: for example, a spike of the other surface can end over the middle of a
-//! face. Therefore triangles are cut into pieces. The cutting stops when no point of any piece can be further from the
-//! other surface than the largest distance found so far plus a tolerance:
+//! face. Therefore triangles are cut into pieces. A tolerance is added to the largest distance found so far. The
+//! cutting stops when no point of any piece can be further from the other surface than this sum:
 //!
 //! ```text
 //!     c              c

@@ -88,9 +88,8 @@ impl Piece {
     ///    three nearest points span. Then no point of the piece is further than d from N. Two sides of N join a point
     ///    of S to a point of T. The length e is the larger of the distances of these two sides from the common edge.
     ///    Each point of N is therefore within the distance e of S or of T.
-    /// 3. The length d plus 1/√3 times the longest side of the piece, where d is the largest distance from a corner of
-    ///    the piece to the nearest point of the other surface. This is a bound because the distance from a point of the
-    ///    piece to the nearest corner is at most 1/√3 times the longest side.
+    /// 3. The same length d plus 1/√3 times the longest side of the piece. This is a bound because the distance from a
+    ///    point of the piece to the nearest corner is at most 1/√3 times the longest side.
     fn bound(&self, to: &SurfaceIndex) -> f64 {
         let [a, b, c] = self.corners;
         let far = self.corners.iter().fold(0.0, |d, s| s.hit.distance.max(d));
@@ -130,8 +129,8 @@ impl Piece {
         self.corners.iter().map(distance).fold(0.0, f64::max)
     }
 
-    /// Whether cutting the piece can lower its upper bound. Returns false if two conditions hold: the distance at a
-    /// corner is inexact, because a search stopped early, and the upper bound is at most `tolerance` above the largest
+    /// Whether cutting the piece can lower its upper bound. Returns false if two conditions hold: the distance at some
+    /// corner is inexact, because a search stopped early; and the upper bound is at most `tolerance` above the largest
     /// distance at a corner.
     fn can_improve(&self, tolerance: f64) -> bool {
         let hits = self.corners.map(|s| s.hit);
@@ -158,8 +157,9 @@ impl Piece {
         Sample { at, hit }
     }
 
-    /// Lowers the upper bound of the piece, if the triangle of the other surface that is nearest to the center of the
-    /// piece gives a smaller bound. `middle` is the sample at the center.
+    /// Computes another upper bound from one triangle of the other surface: the triangle that is nearest to the center
+    /// of the piece. If this bound is smaller, it replaces the upper bound of the piece. `middle` is the sample at the
+    /// center.
     pub(super) fn lower(&mut self, middle: &Sample, to: &SurfaceIndex) {
         self.upper = self.upper.min(self.to_triangle(to, middle.hit.triangle));
     }

@@ -181,8 +181,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Joins the sets of all points of a box that are connected by steps, directly or through other points of the box.
-    /// A step is at most as long as the given distance.
+    /// Joins the sets of any two points of a box that are connected by steps, directly or through other points of the
+    /// box. A step is at most as long as the given distance.
     fn join_within(&self, tree: &Tree) -> Result<(), Cancelled> {
         if let (false, Some([a, b])) = (tree.is_cluster, tree.halves.as_deref()) {
             let (low, high) = run_both(

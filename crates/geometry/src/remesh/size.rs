@@ -153,8 +153,8 @@ fn curvatures(original: &Original) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the curvature of a line at one of its vertices: the angle by which the line turns at the vertex, divided by
-/// half the total length of the two edges of the line at the vertex. The curvature is 0 at the corners of the line.
+/// Returns the curvature of a line at a vertex: the angle by which the line turns there, divided by the mean length of
+/// the two edges of the line that meet there. The curvature is 0 at the corners of the line.
 fn line_curvature(original: &Original, v: VertexId) -> f64 {
     let Place::Line { .. } = original.places[v.index()] else {
         return 0.0;

@@ -1,8 +1,8 @@
 //! Computes the attributes and the exact positions of the result of remeshing.
 //!
 //! Each element of the result has a location on the original surface: a vertex inside a chart lies on a triangle, and a
-//! vertex on a line lies on an edge. Corners at a line get their values from the side of the line on which they lie, so
-//! that values are never mixed across a seam.
+//! vertex on a line lies on an edge. A corner at a line gets its values from the side of the line on which the corner
+//! lies. Values are therefore never mixed across a seam.
 
 use mesh::{
     Attributes, Column, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Rule, VertexId, parallel,

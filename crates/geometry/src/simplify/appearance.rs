@@ -1,10 +1,10 @@
 //! How attributes contribute to the cost of an edge collapse in simplification.
 //!
 //! Texture coordinates, normals, colors and other numbers are linear functions on each original triangle. A vertex
-//! represents some original triangles. If the vertex is placed at the point p and gets the value s, its error is the
-//! mean squared difference between s and the linear functions of these triangles at p. For each point p, one value s
-//! has the least error. This least error is a quadratic function of p, a quadric. Source: Hoppe, "New Quadric Metric
-//! for Simplifying Meshes with Appearance Attributes", 1999.
+//! represents some original triangles. If the vertex is placed at the point p and gets the value s, the error is the
+//! mean squared difference between s and the values of these linear functions at p. For each point p, one value s has
+//! the least error. This least error is a quadratic function of p, a quadric. Source: Hoppe, "New Quadric Metric for
+//! Simplifying Meshes with Appearance Attributes", 1999.
 //!
 //! ```text
 //!           \   w0  /

@@ -61,8 +61,8 @@ pub enum Method {
     /// Filtering for Mesh Denoising", 2011; Sun, Rosin, Martin, Langbein, "Fast and Effective Feature-Preserving Mesh
     /// Denoising", 2007.
     Denoise {
-        /// The angle between the normals of two faces at which the weight is multiplied by exp(-2) = 0.14, in degrees
-        /// from 0 to 180.
+        /// If the normals of two faces form this angle, the weight is multiplied by exp(-2) = 0.14. The angle is in
+        /// degrees, from 0 to 180.
         angle: f64,
         /// The number of vertex passes: how often the vertices are moved after the normals were filtered.
         vertex_passes: u32,
@@ -306,10 +306,11 @@ impl<'a> Smoother<'a> {
         mesh.positions_mut().copy_from_slice(&new);
     }
 
-    /// Moves all vertices that are not pinned by the same distance along their normals, so that the mesh has the volume
-    /// `target`. The first distance is computed from the derivative of the volume with respect to the distance. This
-    /// derivative is the sum of the lengths of the area vectors at the vertices that move. `target` is a volume in the
-    /// scaled coordinates, which are scene coordinates divided by 2 to the power of `exponent`.
+    /// Moves vertices along their normals, so that the mesh has the volume `target`. Pinned vertices do not move; all
+    /// other vertices move by the same distance. The first distance is computed from the derivative of the volume with
+    /// respect to the distance. This derivative is the sum of the lengths of the area vectors at the vertices that
+    /// move. `target` is a volume in the scaled coordinates, which are scene coordinates divided by 2 to the power of
+    /// `exponent`.
     fn restore_volume(
         &self,
         mesh: &mut Mesh,

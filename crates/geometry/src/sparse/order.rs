@@ -59,8 +59,8 @@ struct Quotient {
     buckets: Buckets,
     /// The eliminated variables, in the order of their elimination.
     pivots: Vec<u32>,
-    /// For each element, the total weight of those of its members that are not members of the newest element, plus 2³²
-    /// times `stamp`.
+    /// For each element, a sum: 2³² times `stamp`, plus the total weight of the members that are not also members of
+    /// the newest element.
     outside: Vec<u64>,
     /// For each variable and each element, the value that `stamp` had when this entry was last set.
     mark: Vec<u64>,

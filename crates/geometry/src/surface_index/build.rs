@@ -179,9 +179,10 @@ struct Subtree<'a> {
 }
 
 impl Subtree<'_> {
-    /// Builds the nodes of the subtree. Returns two sums over its triangles. The first sum adds up the unit normals,
-    /// each times twice the area. The second sum adds up the longest sides as vectors. The function [`sum`] reverses
-    /// some of these vectors, so that opposite vectors do not cancel.
+    /// Builds the nodes of the subtree. Returns two sums over its triangles. The first sum adds up the unit normals of
+    /// the triangles, each multiplied by twice the area of its triangle. The second sum adds up the longest sides of
+    /// the triangles as vectors. The function [`sum`] reverses some of these vectors, so that opposite vectors do not
+    /// cancel.
     fn build(
         self,
         triangles: &[Triangle],

@@ -88,8 +88,7 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
             };
             (0..3).any(|i| {
                 let j = (i + 1) % 3;
-                // A side that does not reach the plane of the other triangle does not meet that triangle, so it is not
-                // tested.
+                // A side is tested only if it reaches the plane of the other triangle.
                 let reaches = |sides: [Ordering; 3]| sides[i] != sides[j] || sides[i] == Equal;
                 reaches(sides) && meets([s[i], s[j]], t)
                     || reaches(other_sides) && meets([t[i], t[j]], s)
@@ -101,8 +100,9 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
                 return false;
             }
             // The triangles have one common corner. Suppose that they have another common point, and consider the ray
-            // from the common corner through this point. The ray leaves the first of the two triangles through the side
-            // opposite the corner, at a point of the other triangle.
+            // from the common corner through this point. The ray leaves one of the two triangles before the other. At
+            // this point, the ray crosses the side opposite the common corner, and is still in the other triangle.
+            // Therefore it is enough to test these sides.
             let opposite = |t: &[DVec3; 3], common: [bool; 3]| {
                 let i = common.iter().position(|c| *c).unwrap_or(0);
                 [t[(i + 1) % 3], t[(i + 2) % 3]]

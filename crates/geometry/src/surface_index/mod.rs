@@ -154,8 +154,8 @@ impl SurfaceIndex {
 
     /// Visits the tree from the root. `enters` decides whether a box is visited; its arguments are the corners of the
     /// box with the smallest and with the largest coordinates. Boxes inside a rejected box are skipped. If a visited
-    /// box contains no smaller boxes, `found` is called with the index of each triangle in the box, even if `enters`
-    /// would reject the bounding box of the triangle.
+    /// box contains no smaller boxes, `found` is called with the index of each triangle in the box. The bounding boxes
+    /// of single triangles are not tested.
     pub fn visit_boxes(
         &self,
         enters: &mut dyn FnMut(DVec3, DVec3) -> bool,

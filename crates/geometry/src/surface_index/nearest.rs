@@ -19,7 +19,8 @@ pub struct Nearest {
     pub lower: f64,
     /// The nearest point.
     pub point: DVec3,
-    /// The index of the triangle that contains the point, for [`SurfaceIndex::triangle`].
+    /// The index of the triangle that contains the point. [`SurfaceIndex::triangle`] returns the triangle with this
+    /// index.
     pub triangle: u32,
     /// The number of nodes of the tree that the search visited.
     pub(crate) visits: u32,
@@ -50,7 +51,7 @@ impl SurfaceIndex {
     /// of them. Therefore the search stops after a few thousand nodes and returns the nearest point found so far.
     /// [`Nearest::lower`] is then a lower bound of the distance to the true nearest point.
     ///
-    /// Returns an infinite or undefined distance if `p` is not finite, or if squared coordinates are too large for an
+    /// The returned distance is infinite or NaN if `p` is not finite, or if squared coordinates are too large for an
     /// `f64`.
     pub fn nearest(&self, p: DVec3, hint: u32) -> Nearest {
         let (best, lower, visits) = self.nearest_below(p, hint, f64::INFINITY, 0.0);

@@ -17,10 +17,10 @@ use super::SurfaceIndex;
 /// different directions, so that an oriented box would not be smaller than the axis-aligned box.
 const MOST: usize = 512;
 
-/// A triangle is thin if its longest side is at least this number of times as long as the height over this side.
+/// A triangle is thin if the length of its longest side is at least this number times the height over this side.
 const THIN: f64 = 16.0;
 
-/// A surface has oriented boxes if at least one in this number of its triangles is thin.
+/// A surface has oriented boxes if the fraction of its triangles that are thin is at least 1 divided by this number.
 const SHARE: usize = 64;
 
 /// A box around triangles. Its sides are parallel to `normal`, to `along` and to the cross product of these two
@@ -100,7 +100,7 @@ impl SurfaceIndex {
     }
 }
 
-/// Whether at least one in [`SHARE`] of the `n` triangles is thin.
+/// Whether at least `n` / [`SHARE`] of the `n` triangles are thin.
 pub(super) fn are_thin<'a>(n: usize, triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> bool {
     let is_thin = |t: &&[DVec3; 3]| {
         let [a, b, c] = **t;
@@ -109,7 +109,8 @@ pub(super) fn are_thin<'a>(n: usize, triangles: impl Iterator<Item = &'a [DVec3;
     triangles.filter(is_thin).count() * SHARE >= n
 }
 
-/// Returns the longest side of a triangle as a vector. Of its two opposite directions, one is chosen by a fixed rule.
+/// Returns the longest side of a triangle as a vector. The vector has the direction in which the boundary of the
+/// triangle runs along this side.
 pub(super) fn longest_side([a, b, c]: &[DVec3; 3]) -> DVec3 {
     let sides = [b - a, c - b, a - c];
     let longer = |s: DVec3, t: DVec3| {

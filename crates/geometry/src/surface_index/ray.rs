@@ -18,7 +18,7 @@ pub struct RayHit {
     pub point: DVec3,
     /// The barycentric coordinates of the point: weights of the three corners of the triangle, which are not negative.
     pub weights: [f64; 3],
-    /// The index of the triangle that the ray meets, for [`SurfaceIndex::triangle`].
+    /// The index of the triangle that the ray meets. [`SurfaceIndex::triangle`] returns the triangle with this index.
     pub triangle: u32,
     /// Whether the ray meets the front of the triangle: the side from which its corners are seen in counter-clockwise
     /// order.

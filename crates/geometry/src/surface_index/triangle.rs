@@ -32,8 +32,8 @@ pub(crate) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
     on_first.distance(on_second)
 }
 
-/// Returns the point of a triangle that is nearest to `p`, by the Voronoi region that contains `p`. For a zero-area
-/// triangle, the result is the nearest point of its three sides.
+/// Returns the point of a triangle that is nearest to `p`. The point is computed from the Voronoi region of the
+/// triangle that contains `p`. For a zero-area triangle, the result is the nearest point of its three sides.
 ///
 /// Source: Ericson, "Real-Time Collision Detection", 2005, §5.1.5.
 pub fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
@@ -150,8 +150,8 @@ pub(super) fn nearest_weights(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> [f64; 3] {
     [(1.0 - v - w).max(0.0), v, w]
 }
 
-/// Returns the position, along a segment, of the point of the segment that is nearest to `p`: from 0 at `a` to 1 at
-/// `b`. Returns 0 if the segment is a point.
+/// Finds the point of a segment that is nearest to `p`. Returns the position of this point along the segment: from 0 at
+/// `a` to 1 at `b`. Returns 0 if the segment is a point.
 fn along(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     let along = b - a;
     let length_squared = along.length_squared();

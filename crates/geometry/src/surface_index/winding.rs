@@ -194,8 +194,8 @@ impl Moments {
             let square = (x.iter().map(|x| *x * *x).sum::<DVec3>() + 9.0 * g * g) / 12.0;
             let mixed =
                 (x.iter().map(|x| yzx(*x) * zxy(*x)).sum::<DVec3>() + 9.0 * yzx(g) * zxy(g)) / 12.0;
-            // The components of `mixed` are the integrals of yz, zx and xy. The coefficient of x² y is the sum of the
-            // components of the tensor T over the three orders of the indices x, x and y.
+            // The components of `mixed` are the integrals of yz, zx and xy. The coefficient of x² y is a sum of three
+            // components of the tensor T: the components with the indices xxy, xyx and yxx.
             let [yz, zx, xy] = mixed.to_array();
             moments.second[0] += n * square;
             moments.second[1] += yzx(n) * square + 2.0 * n * DVec3::new(xy, yz, zx);

@@ -5,7 +5,7 @@ use crate::shapes;
 use mesh::UV;
 use proptest::prelude::*;
 
-/// Sets texture coordinates by position, and smooth normals from the faces.
+/// Sets texture coordinates that depend on the position, and smooth normals that are computed from the faces.
 fn mapped(mut mesh: Mesh, uv: impl Fn(DVec3) -> DVec2) -> Mesh {
     let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
     let mut normals = vec![DVec3::ZERO; mesh.n_vertices()];

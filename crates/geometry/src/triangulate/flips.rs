@@ -173,7 +173,7 @@ fn area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Whether `q` is outside of or on the circle through the corners of a triangle, up to a tolerance.
+/// Whether `q` is not inside the circle through the corners of a triangle, up to a tolerance.
 fn is_legal(triangle: [DVec2; 3], q: DVec2) -> bool {
     let [d, e, f] = triangle.map(|p| p - q);
     let [a, b, c] = [d, e, f].map(DVec2::length_squared);

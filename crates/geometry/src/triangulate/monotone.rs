@@ -86,9 +86,9 @@ impl<'a> Polygon<'a> {
         self.points[corner as usize].into()
     }
 
-    /// Returns the diagonals that cut the polygon into monotone pieces, which any horizontal line meets in one segment.
-    /// Each diagonal is a pair of corners, the lower index first. The diagonals are nested like brackets. They are
-    /// sorted by their second corner, and an inner diagonal comes before an outer one.
+    /// Returns the diagonals that cut the polygon into monotone pieces. A horizontal line never meets a monotone piece
+    /// in more than one segment. Each diagonal is a pair of corners, the lower index first. The diagonals are nested
+    /// like brackets. They are sorted by their second corner, and an inner diagonal comes before an outer one.
     fn diagonals(&self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<[u32; 2]>> {
         let n = u32::try_from(self.points.len()).expect("corners fit 32 bits");
         // The sides of the polygon that the horizontal sweep line meets now and that have the inside of the polygon on

@@ -66,7 +66,8 @@ pub(super) struct Chart {
 
 /// Why a set of faces is not a valid chart.
 pub(super) enum Failure {
-    /// These two faces overlap in the plane; both are the same if a face overlaps itself.
+    /// Two faces overlap in the plane, or one face overlaps itself. If a face overlaps itself, both ids are the id of
+    /// this face.
     Overlap([FaceId; 2]),
     /// A triangle is mirrored in the plane, or the stretch is too large.
     Stretch,

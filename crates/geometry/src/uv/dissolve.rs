@@ -9,8 +9,8 @@ use super::chart::{Chart, Limits, MAX_CREASE, chart, nearest};
 use super::number;
 use super::surface::Surface;
 
-/// An estimate of the work of flattening a face, divided by the work of comparing its normal with the mean normal of a
-/// chart.
+/// An estimate: to flatten a face takes this number of times the work that it takes to compare the normal of the face
+/// with the mean normal of a chart.
 const FLATTEN: usize = 64;
 
 /// Tries to dissolve each chart, the charts with the smallest area first. A chart is dissolved if the charts around it

@@ -105,7 +105,7 @@ pub(super) fn project(part: &Part) -> Vec<DVec2> {
     points.map(|p| DVec2::new(p.dot(u), p.dot(v))).collect()
 }
 
-/// Returns the entries of the matrix of the Dirichlet energy of functions on a part.
+/// Returns the entries of a matrix: the quadratic form of the Dirichlet energy of functions on a part.
 fn stiffness(part: &Part, frames: &[Frame]) -> Vec<(u32, u32, f64)> {
     let mut entries = Vec::with_capacity(6 * frames.len());
     for (t, frame) in part.triangles.iter().zip(frames) {

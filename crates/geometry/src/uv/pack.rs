@@ -45,7 +45,7 @@ const MIN_HEIGHT: f64 = 4e-6;
 /// than the sum of the areas of the triangles.
 const MAX_CONVEX: usize = 256;
 
-/// Areas whose difference is at most this fraction of the area count as equal.
+/// Two areas count as equal if their relative difference is at most this number.
 const HULL_MARGIN: f64 = 1e-4;
 
 /// A chart before the packing.

@@ -33,8 +33,8 @@ pub struct Unwrapped {
     pub charts: Charts,
     /// The area of all charts together, as a fraction of the area of the page.
     pub coverage: f64,
-    /// The faces that contain a triangle whose area in the texture is zero, or becomes zero when the coordinates are
-    /// rounded to 32 bits.
+    /// The faces that contain a triangle with zero area in the texture. A triangle whose area becomes zero when the
+    /// coordinates are rounded to 32 bits counts too.
     pub flat: Vec<FaceId>,
     /// The polygons that are bent so strongly that each of them overlaps itself in the texture.
     pub bent: Vec<FaceId>,

@@ -21,9 +21,9 @@ const TEXTURE: f64 = 0.5;
 /// distance for the rocker arm would be 3.9e-3 of the diagonal of the bounding box instead of 3.3e-3.
 const NORMAL: f64 = 0.002;
 
-/// The weight of all attributes except texture coordinates and normals. If the error of an attribute equals the
-/// difference between its lowest and its highest value, the error counts as a distance of this fraction of the size of
-/// the mesh.
+/// The weight of all attributes except texture coordinates and normals. The largest possible error of an attribute is
+/// the difference between its lowest and its highest value. This error counts as a distance: this fraction of the size
+/// of the mesh.
 const OTHER: f64 = 0.02;
 
 impl Appearance {

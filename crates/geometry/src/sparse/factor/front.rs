@@ -3,8 +3,8 @@
 use crate::sparse::symbolic::Supernode;
 use mesh::parallel;
 
-/// The number of columns of a tile. All columns of a tile are updated together. Each step subtracts multiples of `TILE`
-/// pivot columns from each column of the tile.
+/// The number of columns of a tile. All columns of a tile are updated together. Each step takes as many pivot columns
+/// as a tile has columns, and subtracts multiples of these pivot columns from each column of the tile.
 const TILE: usize = 4;
 /// The number of pivot columns in a block. Before a block is factored, its columns are updated in parallel, from the
 /// columns of all earlier blocks.
@@ -170,8 +170,8 @@ struct Tile<'a> {
     columns: Vec<&'a mut [f64]>,
 }
 
-/// Divides the columns from `first` to `end` of a front with `m` rows into tiles. A packed column starts at its
-/// diagonal, other columns at row 0.
+/// Divides the columns from `first` to `end` of a front with `m` rows into tiles. If `is_packed` is true, `values` has
+/// only the part of each column from the diagonal down. Otherwise, each column in `values` starts at row 0.
 fn tiles(values: &mut [f64], first: usize, end: usize, m: usize, is_packed: bool) -> Vec<Tile<'_>> {
     let mut tiles: Vec<Tile> = Vec::with_capacity((end - first).div_ceil(TILE));
     let mut rest = values;

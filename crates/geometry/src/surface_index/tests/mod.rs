@@ -199,8 +199,8 @@ impl Progress for Stop {
     }
 }
 
-/// The face with one radius is flat and convex, so it is repeatedly cut in half. The face with two radii is cut into
-/// monotone polygons.
+/// The corners of the first face lie on one circle, so the face is convex and is repeatedly cut in half. The corners of
+/// the second face lie on two circles, so the face is cut into monotone polygons.
 #[test]
 fn the_index_of_a_face_with_many_corners_can_be_cancelled_at_any_call() {
     let n = 100_000_u32;

@@ -52,8 +52,8 @@ fn slabs_find_the_distance_to_a_tilted_square() {
     }
 }
 
-/// For points that are far from the mesh, the number of nodes that a search for the nearest point visits grows only
-/// with the depth of the tree.
+/// When the given point is far from the mesh, the search for the nearest point visits few nodes. The number of visited
+/// nodes grows only with the depth of the tree.
 #[test]
 fn far_points_visit_few_nodes_of_a_fine_mesh() {
     let mut most = [0; 2];

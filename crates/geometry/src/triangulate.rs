@@ -28,8 +28,8 @@ use mesh::{DVec3, FaceId, Mesh};
 /// The indices of three corners of a face, in ascending order.
 pub type Triangle = [u32; 3];
 
-/// Squared lengths whose relative difference is at most this number are treated as equal. An area is treated as 0 if it
-/// is smaller than this number, relative to the size of the face.
+/// Squared lengths whose relative difference is at most this number are treated as equal. Areas are measured relative
+/// to the size of the face; an area below this number is treated as 0.
 const TOLERANCE: f64 = 1e-12;
 /// The largest number of corners for which a face is cut by ear clipping. Ear clipping of a face with this number of
 /// corners takes at most about 50 ms.
@@ -93,9 +93,10 @@ impl Cut {
     /// The pairs are sorted.
     pub fn diagonals(&self, into: &mut Vec<[u32; 2]>) {
         into.clear();
-        // The corners of a triangle are in ascending order. In one triangle, the side from the first to the last corner
-        // is the side of the face between its corner 0 and its last corner. In all other triangles, this side is a
-        // diagonal. Each diagonal joins the first and the last corner of exactly one triangle.
+        // The corners of a triangle are in ascending order. In one triangle, the first corner is the first corner of
+        // the face, and the last corner is the last corner of the face. The side between these two corners is a side of
+        // the face. In all other triangles, the side between the first and the last corner is a diagonal. Each diagonal
+        // joins the first and the last corner of exactly one triangle.
         let triangles = self.triangles();
         let last = u32::try_from(triangles.len()).expect("corners fit 32 bits") + 1;
         let sides = triangles.iter().map(|&[a, _, c]| [a, c]);
@@ -421,8 +422,8 @@ fn is_triangulation_unless(
     let mut descending: Vec<[u32; 2]> = triangles.iter().map(|&[a, _, c]| [a, c]).collect();
     // The side of the polygon from corner n - 1 to corner 0 is removed from the list `descending`. All other sides of
     // the polygon are added to this list. If the triangles form a triangulation, the lists `ascending` and `descending`
-    // are then equal. Each diagonal is in both lists, because the two triangles beside the diagonal run along it in
-    // opposite directions.
+    // are then equal. Each diagonal is in both lists, because it belongs to two triangles, whose boundaries run along
+    // it in opposite directions.
     let whole = [0, n - 1];
     let Some(place) = descending.iter().position(|&side| side == whole) else {
         return Some(false);

@@ -94,7 +94,7 @@ pub fn occlusion(
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<Vec<f64>, Cancelled> {
-    /// The golden ratio minus 1, whose multiples are spread evenly modulo 1.
+    /// The golden ratio minus 1. The multiples of this number are spread evenly modulo 1.
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let scaled = Scaled::new(mesh);
     let mesh = scaled.mesh();

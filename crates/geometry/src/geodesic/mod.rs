@@ -145,8 +145,8 @@ fn flow(surface: &Intrinsic, heat: &[f64], n: usize) -> Vec<f64> {
         // the first side of the triangle.
         let x = (a * a + c * c - b * b) / (2.0 * a);
         let y = 2.0 * area([a, b, c]) / a;
-        // A hat function is 1 at one corner and 0 at the two others. The gradient of a hat function, times twice the
-        // area of the triangle, is the side opposite the corner with the value 1, turned by 90°.
+        // A hat function is 1 at one corner and 0 at the two others. To get the gradient of a hat function, the side
+        // opposite the corner with the value 1 is turned by 90° and divided by twice the area of the triangle.
         let hats = [[-y, x - a], [y, -x], [0.0, a]];
         let values = corners.map(|v| heat[v as usize]);
         let largest = values.iter().fold(0.0, |max: f64, u| max.max(u.abs()));

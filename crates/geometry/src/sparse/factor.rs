@@ -66,8 +66,8 @@ impl<'a> Factor<'a> {
         Self::with_pins(matrix, &vec![false; matrix.len()], progress)
     }
 
-    /// Factors the part of a symmetric matrix that belongs to the unknowns that are not pinned. This part of the matrix
-    /// must be positive definite.
+    /// Factors a part of a symmetric matrix: the rows and columns of the unknowns that are not pinned. This part of the
+    /// matrix must be positive definite.
     ///
     /// # Errors
     ///

@@ -80,7 +80,8 @@ impl Entry for mesh::DVec3 {
 /// Why a system of equations was not solved.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
-    /// A pivot is zero, negative, infinite or NaN: the matrix is not positive definite, or rounding makes it appear so.
+    /// A pivot is zero, negative, infinite or NaN: the matrix is not positive definite, or it only seems so because of
+    /// rounding errors.
     #[error(
         "the matrix is not positive definite: the pivot of row {row} is {pivot}; pin an unknown of each component, or add \
          a positive diagonal"

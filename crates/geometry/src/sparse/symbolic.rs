@@ -102,7 +102,7 @@ fn elimination_tree<I: Iterator<Item = u32>>(
 ) -> Vec<u32> {
     let position = inverse(order);
     let mut parent = vec![NONE; order.len()];
-    // For each column, its highest ancestor in the elimination tree that is known so far. The loop jumps to these
+    // For each column, the highest ancestor in the elimination tree that has been found so far. The loop jumps to these
     // ancestors, because this shortens the paths to the root.
     let mut ancestor = vec![NONE; order.len()];
     for (k, &row) in (0..).zip(order) {

@@ -27,7 +27,7 @@ const MANY_CORNERS: usize = 64;
 /// The number of triangles that are copied between two progress reports.
 const PART: usize = 1 << 18;
 
-/// The number of new triangles between two progress reports, while faces are divided into triangles.
+/// While faces are divided into triangles, one progress report is made for this number of new triangles.
 const REPORT: usize = 16_384;
 
 /// Appends the triangles of a face. A face with at most four corners is divided into a fan of triangles. A face with

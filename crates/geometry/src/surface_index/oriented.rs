@@ -14,7 +14,7 @@ use mesh::DVec3;
 use super::SurfaceIndex;
 
 /// The largest number of triangles of a node that gets an oriented box. In a larger node, the triangles usually have
-/// different directions, so that an oriented box would not be smaller than the axis-aligned box.
+/// different directions. An oriented box would then not be smaller than the axis-aligned box.
 const MOST: usize = 512;
 
 /// A triangle is thin if the length of its longest side is at least this number times the height over this side.
@@ -44,7 +44,7 @@ impl Oriented {
     };
 
     /// Returns the oriented box of `n` triangles. `normal` is the sum of the area vectors of the triangles, or a
-    /// multiple of this sum. `along` is the sum of their longest sides, added by [`sum`].
+    /// multiple of this sum. `along` is the sum of the longest sides of the triangles, computed with [`sum`].
     pub(super) fn of<'a>(
         triangles: impl Iterator<Item = &'a [DVec3; 3]>,
         n: usize,

@@ -13,7 +13,7 @@ use mesh::DVec3;
 use super::SurfaceIndex;
 
 /// The largest number of triangles of a node that gets a slab. The triangles of a larger node usually do not lie near
-/// one plane, so that a slab would not be thinner than the box of the node.
+/// one plane. A slab would then not be thinner than the box of the node.
 const MOST: usize = 512;
 
 /// The maximum number of values of λ for which a bound is computed; see [`SurfaceIndex::slab_distance_squared`].

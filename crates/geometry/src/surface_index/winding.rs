@@ -50,7 +50,7 @@ const BLOCK: usize = 256;
 #[derive(Clone, Copy, Debug, Default)]
 struct Moments {
     center: DVec3,
-    /// The largest distance of a corner of the triangles from the center.
+    /// The largest distance from the center to a corner of a triangle.
     radius: f64,
     normal: DVec3,
     first: [DVec3; 2],

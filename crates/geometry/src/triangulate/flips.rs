@@ -139,8 +139,8 @@ impl Flips {
     fn flip(&mut self, points: &[[f64; 2]], corners: &mut [u32], a: u32) -> bool {
         let b = self.mates[a as usize];
         if b == NONE {
-            // After this side was put on the stack, another flip has changed its triangle. The side with this index is
-            // now a side of the polygon, which cannot be flipped.
+            // Another flip has changed the triangle of this side since the side was put on the stack. The side with
+            // this index is now a side of the polygon, which cannot be flipped.
             return false;
         }
         let turned = |side: u32, by: u32| side - side % 3 + (side + by) % 3;

@@ -119,7 +119,8 @@ fn grow(
     Ok(sorted.collect())
 }
 
-/// Whether the angles between the normals of the given faces and their mean normal are within the limit.
+/// Whether the normals of the given faces are close enough to their mean normal: the angle between each normal and the
+/// mean normal must be within the limit.
 fn is_cone(surface: &Surface, smooth: &[DVec3], faces: &[u32], limits: Limits) -> bool {
     let weighted = |f: &u32| smooth[*f as usize] * surface.areas[*f as usize];
     let axis = faces

@@ -33,7 +33,7 @@ pub(super) struct Meeting {
     pub(super) crease: f64,
 }
 
-/// The sum of the normals, the total area and the length of the border of a set of faces.
+/// Properties of a set of faces: the sum of the normals, the total area, and the length of the border.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Totals {
     /// The sum of the normals of the faces, weighted by area.

@@ -43,14 +43,15 @@ pub struct Unwrapped {
 /// Computes texture coordinates for all faces of a dense mesh. The faces do not overlap in the texture, except that
 /// each face in [`Unwrapped::bent`] overlaps itself.
 ///
-/// Charts grow from flat regions. Each chart is flattened by a least squares conformal map (Levy, Petitjean, Ray,
-/// Maillot, "Least Squares Conformal Maps for Automatic Texture Atlas Generation", 2002) and then by the hybrid method
-/// of Liu, Zhang, Xu, Gotsman, Gortler ("A Local/Global Approach to Mesh Parameterization", 2008). A chart of several
-/// faces is cut in two if it would overlap itself or be stretched too much. In the result, each chart of several faces
-/// has an aspect of at most 1.15 on 95 % of its area (see [`Stretch`](super::Stretch)). Two charts with a common border
-/// are joined again if the joined chart neither overlaps itself nor is stretched too much. Finally, a chart is
-/// dissolved if its faces can be divided among the charts around it without exceeding the same limits. All charts have
-/// the same scale. No chart is mirrored, and no polygon is split. The charts are packed by [`pack`].
+/// Charts grow from flat regions. Each chart is first flattened by a least squares conformal map (Levy, Petitjean, Ray,
+/// Maillot, "Least Squares Conformal Maps for Automatic Texture Atlas Generation", 2002). Then the hybrid method
+/// improves this map (Liu, Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008). A
+/// chart of several faces is cut in two if it would overlap itself or be stretched too much. In the result, each chart
+/// of several faces has an aspect of at most 1.15 on 95 % of its area (see [`Stretch`](super::Stretch)). Two charts
+/// with a common border are joined again if the joined chart neither overlaps itself nor is stretched too much.
+/// Finally, a chart is dissolved if its faces can be divided among the charts around it without exceeding the same
+/// limits. All charts have the same scale. No chart is mirrored, and no polygon is split. The charts are packed by
+/// [`pack`].
 ///
 /// The result does not depend on the number of threads or on the processor.
 ///

@@ -20,8 +20,8 @@ use progress::{Cancelled, Meter, Progress};
 use crate::sparse::SymmetricMatrix;
 use crate::triangulate::Cutter;
 
-/// The largest number of corners of a polygon that is divided into triangles around a virtual vertex in its middle. A
-/// polygon with more corners is cut into triangles along diagonals.
+/// A polygon with 4 corners up to this number of corners is divided into triangles around a virtual vertex in its
+/// middle. A polygon with more corners is cut into triangles along diagonals.
 const MAX_CORNERS: usize = 16;
 /// In every triangle, the sum of any two sides must exceed the third side by at least this fraction of the mean edge
 /// length. If one triangle fails this test, all edges of all triangles are lengthened by the same length.
@@ -48,8 +48,8 @@ const FACES: usize = 4096;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Laplacian {
     /// The stiffness matrix, with one row for each vertex. The matrix is positive semidefinite, and each row adds up to
-    /// 0. The entry in the row of one end of an edge and in the column of the other end is minus the weight of the
-    /// edge. The entries have no unit.
+    /// 0. For an edge between the vertices i and j, the entries (i, j) and (j, i) are minus the weight of the edge. The
+    ///    entries have no unit.
     pub stiffness: SymmetricMatrix,
     /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit². Areas too large
     /// for an `f64` are replaced by its largest value, 1.8e308. The area is 0 for vertices without faces. For vertices

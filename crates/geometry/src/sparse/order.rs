@@ -19,7 +19,7 @@ use progress::{Cancelled, Progress};
 /// Marks the end of a linked list.
 const NONE: u32 = u32::MAX;
 
-/// Returns the rows from 0 to n - 1 in an order that makes Gaussian elimination create few nonzero entries.
+/// Returns the rows from 0 to n - 1 in a new order. In this order, Gaussian elimination creates few nonzero entries.
 /// `neighbors[i]` has the columns of row i without i itself.
 pub(super) fn minimum_degree(
     neighbors: Vec<Vec<u32>>,

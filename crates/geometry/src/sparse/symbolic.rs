@@ -28,8 +28,8 @@ pub(super) struct Supernode {
     pub(super) columns: Range<usize>,
     /// All rows in ascending order. The list begins with the columns of the supernode.
     pub(super) rows: Vec<u32>,
-    /// The parent in the elimination tree: the supernode whose columns contain the first row of `rows` that is not a
-    /// column of this supernode.
+    /// The parent in the elimination tree. Let r be the first row in `rows` that is not a column of this supernode. The
+    /// parent is the supernode that has r as a column.
     pub(super) parent: Option<usize>,
     pub(super) n_children: usize,
 }

@@ -57,8 +57,8 @@ pub fn self_intersecting_faces(
 /// Two triangles with the same three corners intersect. A zero-area triangle never counts as intersecting, because its
 /// sides are usually also sides of its neighbors.
 ///
-/// The answer is exact for coordinates up to 1e150 in magnitude, if the differences between coordinates are not below
-/// 1e-90 times the largest coordinate.
+/// The answer is exact under two conditions: no coordinate is above 1e150 in magnitude, and every difference between
+/// coordinates is either 0 or at least 1e-90 times the largest coordinate.
 ///
 /// Two triangles have a common point if and only if a side of one of them meets the other triangle. The test uses only
 /// the signs of volumes and areas, as in Guigue, Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using

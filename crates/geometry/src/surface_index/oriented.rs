@@ -13,14 +13,14 @@ use mesh::DVec3;
 
 use super::SurfaceIndex;
 
-/// The largest number of triangles of a node that gets an oriented box. In a larger node, the triangles usually have
+/// A node with more than this number of triangles gets no oriented box. In a larger node, the triangles usually have
 /// different directions. An oriented box would then not be smaller than the axis-aligned box.
 const MOST: usize = 512;
 
 /// A triangle is thin if the length of its longest side is at least this number times the height over this side.
 const THIN: f64 = 16.0;
 
-/// A surface has oriented boxes if the fraction of its triangles that are thin is at least 1 divided by this number.
+/// A surface has oriented boxes if the fraction of thin triangles is at least 1 / n, where n is this number.
 const SHARE: usize = 64;
 
 /// A box around triangles. Its sides are parallel to `normal`, to `along` and to the cross product of these two

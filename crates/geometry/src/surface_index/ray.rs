@@ -16,7 +16,8 @@ pub struct RayHit {
     pub t: f64,
     /// The point.
     pub point: DVec3,
-    /// The barycentric coordinates of the point: weights of the three corners of the triangle, which are not negative.
+    /// The barycentric coordinates of the point: the weights of the three corners of the triangle. No weight is
+    /// negative.
     pub weights: [f64; 3],
     /// The index of the triangle that the ray meets. [`SurfaceIndex::triangle`] returns the triangle with this index.
     pub triangle: u32,

@@ -12,7 +12,7 @@ use mesh::DVec3;
 
 use super::SurfaceIndex;
 
-/// The largest number of triangles of a node that gets a slab. The triangles of a larger node usually do not lie near
+/// A node with more than this number of triangles gets no slab. The triangles of a larger node usually do not lie near
 /// one plane. A slab would then not be thinner than the box of the node.
 const MOST: usize = 512;
 

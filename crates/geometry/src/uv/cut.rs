@@ -11,8 +11,8 @@ use super::grow::{Totals, grow, meetings, smooth_normals};
 use super::number;
 use super::surface::Surface;
 
-/// Two charts are joined only if their common border is long enough. Its length must be at least this fraction of the
-/// length of the whole border of one of the two charts, namely the chart with the shorter border.
+/// Two charts are joined only if their common border is long enough. Let b be the border length of the chart with the
+/// shorter border. The length of the common border must be at least this fraction of b.
 const MIN_SHARED: f64 = 0.1;
 /// A chart is small if its area is less than this fraction of the area of a neighboring chart. A small chart can be
 /// joined to this neighbor even if the angles between the two charts are larger than [`MAX_CREASE`] allows.
@@ -110,8 +110,8 @@ fn split(
 }
 
 /// Joins pairs of charts with a common border, until no pair can be joined within the limits. For each pair, the length
-/// of the common border is divided by the length of the whole border of one of the two charts, namely the chart with
-/// the shorter border. The pairs with the largest quotients are joined first.
+/// of the common border is divided by the smaller one of the border lengths of the two charts. The pairs with the
+/// largest quotients are joined first.
 fn join(
     surface: &Surface,
     smooth: &[DVec3],

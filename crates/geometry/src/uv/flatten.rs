@@ -61,10 +61,10 @@ impl Frame {
 ///
 /// The starting map is a least squares conformal map (Levy and others, 2002, with the matrix of Mullen, Tong, Alliez,
 /// Desbrun, "Spectral Conformal Parameterization", 2008). The iterations of the hybrid method improve this map (Liu,
-/// Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008). First, an iteration finds,
-/// for each triangle, a similarity transformation with a scale near 1 that is close to the map of the triangle. Then
-/// the iteration solves linear equations for positions that fit these transformations. All iterations have the same
-/// matrix, which is factored once.
+/// Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008). Each iteration has two
+/// steps. First, it finds a similarity transformation for each triangle. This transformation has a scale near 1, and is
+/// close to the map of the triangle. Then the iteration solves linear equations for positions that fit these
+/// transformations. All iterations have the same matrix, which is factored once.
 pub(super) fn flatten(part: &Part, progress: &dyn Progress) -> Result<[Vec<DVec2>; 2], SolveError> {
     let frames: Vec<Frame> = part
         .triangles

@@ -57,9 +57,9 @@ struct Chart {
     scale: Option<f64>,
     /// The middle of the bounding box of the chart in the old texture.
     middle: DVec2,
-    /// The rotation of the chart before the packing, as a complex number. The crate `uvunwrap` compares all triangles
-    /// of a chart whose bounding boxes overlap. Without this rotation, the crate would compare almost all pairs of
-    /// triangles of a chart with thin, oblique triangles.
+    /// The rotation of the chart before the packing, as a complex number. The crate `uvunwrap` compares two triangles
+    /// of a chart if their bounding boxes overlap. In a chart with thin, oblique triangles, the crate would compare
+    /// almost all pairs of triangles without this rotation.
     turn: DVec2,
     /// The area of the chart on the surface.
     area: f64,
@@ -278,8 +278,8 @@ impl Shape {
     /// Replaces the shape by its convex hull if the shape has many triangles and is convex or certainly overlaps
     /// itself. The shape certainly overlaps itself if the sum of the areas of its triangles is larger than the area of
     /// the hull. Returns whether the shape was replaced because it overlaps itself. The replacement saves time: the
-    /// crate `uvunwrap` compares all triangles whose bounding boxes overlap. In the triangulation of a face with many
-    /// corners, almost all pairs of bounding boxes can overlap.
+    /// crate `uvunwrap` compares two triangles if their bounding boxes overlap. In the triangulation of a face with
+    /// many corners, almost all pairs of bounding boxes can overlap.
     fn simplify(&mut self) -> bool {
         if self.indices.len() / 3 <= MAX_CONVEX {
             return false;

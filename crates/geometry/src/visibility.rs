@@ -10,7 +10,7 @@ use crate::deform::noise::random;
 use crate::deform::vertex_directions;
 use crate::surface_index::SurfaceIndex;
 
-/// The distance from the surface at which rays start, as a fraction of the diagonal of the bounding box.
+/// Rays start at a distance from the surface: this number times the diagonal of the bounding box.
 const OFFSET: f64 = 1e-7;
 /// A ray that measures the thickness at a vertex starts on a face, near the vertex. Let l be the length of the shorter
 /// one of the two edges of the face that meet at the vertex. The ray starts at a distance of at most 2 l times this

@@ -24,7 +24,7 @@ use crate::laplacian::exponent;
 use crate::sparse::{Factor, SolveError, SymmetricMatrix};
 use intrinsic::{Intrinsic, area, cotangent, scaled_points};
 
-/// The smallest heat at which the direction of the gradient of the heat is accurate. This heat is well above the
+/// Where the heat is at least this number, the direction of its gradient is accurate. This number is well above the
 /// smallest positive `f64`.
 const LEAST_HEAT: f64 = 1e-280;
 

@@ -104,8 +104,9 @@ impl Chain {
         }
     }
 
-    /// Returns the point that is reached from the point `from` by moving along the chain by the arc length `way`; a
-    /// negative `way` moves backwards. Each point is given by its arc length from the start of the chain.
+    /// Starts at the point `from`, moves along the chain by the arc length `way`, and returns the point that is
+    /// reached. If `way` is negative, moves against the direction of the chain. Each point is given by its arc length
+    /// from the start of the chain.
     pub(super) fn after(&self, from: f64, way: f64) -> f64 {
         let at = from + way;
         if self.is_closed && at >= self.length {

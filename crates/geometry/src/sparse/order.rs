@@ -220,9 +220,9 @@ impl Quotient {
         }
     }
 
-    /// Updates the lists of i, a member of the new element p. Removes the variables that are members of p, and the
-    /// elements without members outside of p, and adds p. Returns two numbers: an upper bound of the degree of i, not
-    /// counting the members of p, and a hash of the lists of i.
+    /// Updates the lists of i, a member of the new element p. Variables that are members of p are removed, and so are
+    /// elements without members outside of p. Then p is added. Returns two numbers: an upper bound of the degree of i,
+    /// not counting the members of p, and a hash of the lists of i.
     fn update(&mut self, i: u32, p: u32) -> (u32, u64) {
         let base = self.stamp << 32;
         let (mut degree, mut hash) = (0_u64, u64::from(p));

@@ -28,8 +28,8 @@ const CHECK: u32 = 1024;
 
 /// Triangulates a counter-clockwise polygon. The triangles are sorted.
 ///
-/// Returns `None` if `is_cancelled` returns `true`. Also returns `None` if some sides of the polygon cross or overlap,
-/// so that a triangle would be turned over.
+/// Returns `None` if `is_cancelled` returns `true`. Also returns `None` if a triangle would be turned over, because
+/// some sides of the polygon cross or overlap.
 pub(super) fn triangulate(
     points: &[[f64; 2]],
     is_cancelled: &dyn Fn() -> bool,

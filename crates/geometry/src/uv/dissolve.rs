@@ -9,8 +9,8 @@ use super::chart::{Chart, Limits, MAX_CREASE, chart, nearest};
 use super::number;
 use super::surface::Surface;
 
-/// Flattening a face is estimated to take as much work as this number of comparisons of normals. Such a comparison
-/// compares the normal of a face with the mean normal of a chart.
+/// Flattening a face is estimated to take as much work as this number of comparisons of normals. In a comparison, the
+/// normal of a face is compared with the mean normal of a chart.
 const FLATTEN: usize = 64;
 
 /// Tries to dissolve each chart, the charts with the smallest area first. A chart is dissolved if the charts around it

@@ -86,8 +86,8 @@ pub(super) fn meetings(
 }
 
 /// Returns smoothed normals of the faces. The normal of each face is averaged several times with the normals of the
-/// neighboring faces, except neighbors whose normals differ by more than 30 degrees. Without averaging, the borders of
-/// charts on noisy scans would be ragged.
+/// neighboring faces. Neighbors whose normals differ by more than 30 degrees are left out. Without averaging, the
+/// borders of charts on noisy scans would be ragged.
 pub(super) fn smooth_normals(surface: &Surface) -> Vec<DVec3> {
     const ROUNDS: usize = 8;
     const COS_30: f64 = 0.866_025_403_784_438_6;

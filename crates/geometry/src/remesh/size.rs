@@ -62,8 +62,9 @@ impl Sizes {
     }
 
     /// Returns an estimate of the largest number of faces during remeshing. The estimate is a sum over the original
-    /// faces. Each face adds 1 + 2 (m + s) to the sum. Here m is the number of triangles of the target length that
-    /// cover the area of the face, and s is the number of splits along its longest side.
+    /// faces. Each face adds 1 + 2 (m + s) to the sum. Here m is the area of the face, divided by the area of an
+    /// equilateral triangle with sides of the target length. The number s is the number of splits along the longest
+    /// side of the face.
     pub(super) fn n_faces(&self, original: &Original) -> f64 {
         let mesh = &original.mesh;
         mesh::parallel::sum(mesh.n_faces(), |f| {

@@ -61,7 +61,7 @@ pub(super) struct Appearance {
     /// For each wedge: a third of the area of its triangles.
     areas: Vec<f64>,
     /// For each wedge: an integral over the triangles of the wedge. On each triangle, every component of an attribute
-    /// is a linear function. The integrand is the sum of the squares of these functions, except those of normals.
+    /// is a linear function. The integrand is the sum of the squares of these functions; normals are left out.
     placing: Vec<Quadric>,
     /// For each wedge: the same integral as in `placing`, but for normals.
     normals: Vec<Quadric>,

@@ -8,12 +8,12 @@
 //! Jobs run on the same threads as the parallel loops inside them. While every thread has a job, each parallel loop
 //! runs entirely on the thread of its job, without the cost of distributing its work. When no more jobs can start, idle
 //! threads help with the parallel loops of the last jobs. If there is not enough memory for the next job, a thread
-//! without a job returns to the thread pool. A thread that waited for memory could not help with the parallel loops of
-//! other jobs. A thread that has completed a job frees the memory of the job. If the limits then allow the next job,
-//! the same thread starts it. If the limits allow one more job, the thread also wakes another thread. While a job waits
-//! for a part of its parallel loop, the thread of the job does not start another job. Therefore, a job never has to
-//! wait until another job on the same thread has ended. A job also cannot deadlock on a lock that a suspended job on
-//! the same thread holds.
+//! without a job returns to the thread pool. If it waited for memory instead, it could not help with the parallel loops
+//! of other jobs. When a thread has completed a job, it frees the memory of the job. If the limits then allow the next
+//! job, the same thread starts it. If the limits still allow one more job, the thread also wakes another thread. While
+//! a job waits for a part of its parallel loop, the thread of the job does not start another job. Therefore, a job
+//! never has to wait until another job on the same thread has ended. There are also no deadlocks in which a job waits
+//! for a lock of another job on the same thread.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -81,7 +81,7 @@ impl<B, S, W> Jobs<B, S, W> {
     ///
     /// # Errors
     ///
-    /// Returns [`JobsError`] if the threads cannot be started. No job was started if this error is returned.
+    /// Returns [`JobsError`] if the threads cannot be started. In this case, no job was started.
     pub fn run<T>(
         &self,
         limits: JobLimits,
@@ -141,8 +141,8 @@ fn deliver<T>(
 }
 
 thread_local! {
-    /// Whether this thread has a job. A thread that waits until other threads have done parts of its job also has a
-    /// job.
+    /// Whether a job on this thread has started and not yet ended. The job is possibly waiting for other threads that
+    /// run parts of its parallel loop.
     static RUNS_JOB: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -175,8 +175,8 @@ where
     /// If `is_broadcast` is set, all threads were started together, so this thread wakes no other thread when it starts
     /// its first job.
     fn work<'s>(&'s self, scope: &Scope<'s>, is_broadcast: bool) {
-        // A thread that already has a job does not start another job. The first job waits until other threads have done
-        // parts of its parallel loop, and could not continue before the second job has ended.
+        // A thread that already has a job does not start another job. Otherwise the first job, which waits for other
+        // threads, could not continue before the second job has ended.
         if RUNS_JOB.get() {
             return;
         }
@@ -294,8 +294,8 @@ const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. For each step, the forecast can have an upper limit for
     /// the memory that the meshes take after the step. If all steps have an upper limit, the estimate is the size of
-    /// the input files plus the largest of these limits. If a step has no upper limit, the estimate is eight times the
-    /// size of the input files, but not less than the memory that the meshes certainly take after any of the steps.
+    /// the input files plus the largest of these limits. Otherwise, the estimate is the larger of two numbers: eight
+    /// times the size of the input files, and the largest amount of memory that the meshes certainly take after a step.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();
@@ -354,7 +354,8 @@ mod tests {
         all
     }
 
-    /// Runs a parallel loop inside another parallel loop. The loops take long for some values of `i`.
+    /// Runs a parallel loop inside another parallel loop. For some values of `i`, the loops take much longer than for
+    /// others.
     fn nested(i: usize) -> u64 {
         let sum = |n: u64| (0..n).into_par_iter().map(|x| x % 7).sum::<u64>();
         (0..40_u64)

@@ -114,7 +114,7 @@ impl OnLoss {
         }
     }
 
-    /// Returns the first of the losses that is not allowed.
+    /// Returns the first loss that is not allowed.
     pub fn forbidden<'l>(&self, losses: &'l [Loss]) -> Option<&'l Loss> {
         losses.iter().find(|loss| !self.allows(&loss.name))
     }
@@ -263,13 +263,13 @@ impl Recipe {
             .any(|placed| placed.that.output().is_some())
     }
 
-    /// Returns the index of the text of a scope in [`Recipe::sources`].
+    /// Returns which source text contains a scope, as an index into [`Recipe::sources`].
     pub fn source_of(&self, scope: usize) -> usize {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
 
-    /// Returns the diagnostic with its location added: the index of the text of the scope, and the calls that led to
-    /// the scope.
+    /// Returns the diagnostic with its location added: which source text contains the scope (as an index into
+    /// [`Recipe::sources`]), and the calls that led to the scope.
     pub fn located(&self, diagnostic: Diagnostic, scope: usize) -> Diagnostic {
         located(diagnostic, scope, &self.scopes)
     }
@@ -303,8 +303,7 @@ impl Recipe {
     }
 }
 
-/// Returns the diagnostic with its location added: the index of the text of the scope, and the calls that led to the
-/// scope.
+/// See [`Recipe::located`].
 pub(crate) fn located(mut diagnostic: Diagnostic, scope: usize, scopes: &[Scope]) -> Diagnostic {
     let Some(mut at) = scopes.get(scope) else {
         return diagnostic;

@@ -1,4 +1,4 @@
-//! The stamp: one line in an output file that describes the run that wrote the file (its provenance).
+//! The stamp: one line of text in an output file. The line records the provenance of the file: which run wrote it.
 //!
 //! ```text
 //! meshwright 0.1.0, recipe 1f0c..e2, {"file":"teapot.ron","set":{"levels":"2"},"inputs":{"a.bez":"9a.."}}

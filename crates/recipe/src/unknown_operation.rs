@@ -16,11 +16,11 @@ const BOOLEANS: &[&str] = &[
     "union",
 ];
 
-/// Returns the help text of an error about the unknown operation `name`. The text suggests at most three operations:
-/// first operations with a similar name, then other operations whose [`words`](op::Entry::words) contain a word of
-/// `name`. If some operations are found by their words, the text suggests at most one operation with a similar name
-/// before them. If neither search finds an operation, the text suggests operations whose names share a word with
-/// `name`. If there are no such operations either, the text names the command that lists all operations.
+/// Returns the help text of an error about the unknown operation `name`. The text suggests at most three operations.
+/// Operations with a similar name come first, then other operations whose [`words`](op::Entry::words) contain a word of
+/// `name`. If there are operations of the second kind, at most one operation of the first kind is suggested. If there
+/// are none of either kind, the text suggests operations whose names share a word with `name`. If there are none of
+/// these either, the text names the command that lists all operations.
 ///
 /// If `name` contains a word for a boolean operation, the help text says that there are no boolean operations. The text
 /// then names operations that can be used instead.

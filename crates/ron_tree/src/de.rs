@@ -1,8 +1,8 @@
 //! Deserializes values into Rust types.
 //!
-//! A type accepts the same values as with the `ron` crate and its extension `IMPLICIT_SOME`: `Some(..)` can be
-//! omitted, and the name of a struct can precede its parentheses. The tree is neither changed nor copied. An error
-//! has the span of the innermost value that caused it.
+//! Accepts the same values as the `ron` crate with its extension `IMPLICIT_SOME`: `Some(..)` can be omitted. The name
+//! of a struct can precede its parentheses. The tree is neither changed nor copied. An error has the span of the
+//! innermost value that caused it.
 
 use std::fmt;
 use std::slice;
@@ -79,7 +79,7 @@ impl Value {
         }
     }
 
-    /// If the result is an error without a span, sets the span of the error to the span of this value.
+    /// If the result is an error without a span, gives the error the span of this value.
     fn locate<T>(&self, result: Result<T>) -> Result<T> {
         result.map_err(|error| self.located(error))
     }
@@ -340,9 +340,9 @@ fn read_name<'de, T: DeserializeSeed<'de>>(
     })
 }
 
-/// A field of a struct, or an entry of a map. Fields and entries have different types. If fields and entries had a
-/// common type, the code that reads field names would also be compiled for keys of any kind. The code that reads field
-/// names is the largest part of the code that is generated for a struct.
+/// A field of a struct, or an entry of a map. Fields and entries have different types. With a common type, the code
+/// that reads field names would also have to read keys of any kind. This code makes up most of the code that is
+/// generated for a struct, so it must stay small.
 trait Pair {
     fn read_key<'de, K: DeserializeSeed<'de>>(&'de self, seed: K) -> Result<K::Value>;
     fn value(&self) -> &Value;

@@ -116,8 +116,8 @@ impl Parser<'_> {
                 && match self.next.kind {
                     Some(K::Colon | K::Equals) => true,
                     Some(K::Open(Bracket::Round)) => false,
-                    // In these cases, a name without a colon is still the name of a field. In `levels 3`, only the
-                    // colon is missing. In `levels,` after other fields, the colon and the value are missing.
+                    // The two cases below are mistakes, but the name is still the name of a field. In `levels,` after
+                    // other fields, the colon and the value are missing. In `levels 3`, only the colon is missing.
                     Some(K::Comma | K::Close(_)) => !contents.fields.is_empty(),
                     next => starts_value(next) && contents.values.is_empty(),
                 };

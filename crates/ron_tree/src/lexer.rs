@@ -1,8 +1,8 @@
 //! Splits a recipe into tokens.
 //!
 //! Every byte of the text belongs to exactly one token. Therefore, concatenating the tokens gives the text again.
-//! Invalid characters become tokens of their own kinds, and lexing continues after them. The lexer only finds the
-//! extent of literals; [`literal`](super::literal) reads their values.
+//! Invalid characters become tokens of their own kinds, and lexing continues after them. The lexer finds where literals
+//! start and end; [`literal`](super::literal) reads their values.
 
 use crate::diagnostic::Span;
 
@@ -112,18 +112,18 @@ pub struct Lexer<'s> {
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// A number of hashes. After the current position, no raw string with this number of hashes or more is closed. The
-    /// lexer therefore does not search for the end of these raw strings again, which keeps the time for lexing linear.
+    /// The smallest number of hashes for which the search for the end of a raw string has failed. The end of a later
+    /// raw string with at least this number of hashes is missing, too. The lexer does not search for it, which keeps
+    /// the time for lexing linear.
     unclosed_hashes: usize,
 }
 
 impl<'s> Lexer<'s> {
     /// Creates a lexer for `source`.
     ///
-    /// A string can span several lines. If a closing quote is missing, everything after that point is misread: strings
-    /// as other tokens, and other tokens as strings. Therefore, if a source text has an unclosed string, every string
-    /// except raw strings ends at the end of its line at the latest. Only the line with the missing quote is then
-    /// misread.
+    /// A string can span several lines. If a closing quote is missing, the rest of the text is misread: strings as
+    /// other tokens, and other tokens as strings. Therefore, if a source text has an unclosed string, every string ends
+    /// in the line in which it starts, except for raw strings. Only the line with the missing quote is then misread.
     pub fn new(source: &'s str) -> Self {
         let mut lexer = Self {
             source,
@@ -260,11 +260,11 @@ impl Iterator for Lexer<'_> {
     }
 }
 
-/// The maximum length of the text in which the position of a missing quote is searched for. The limit keeps the
-/// time for lexing linear.
+/// The maximum length of a line in which the lexer guesses where a quote is missing. The limit keeps the time for
+/// lexing linear.
 const MAX_GUESS_LEN: usize = 4096;
 
-/// Returns where the next `, name:` starts in the rest of a line with a missing quote.
+/// Returns the offset of the first `, name:` in `line`, which is the rest of a line with a missing quote.
 fn next_field(line: &str) -> Option<usize> {
     if line.len() > MAX_GUESS_LEN {
         return None;

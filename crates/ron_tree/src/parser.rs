@@ -159,8 +159,7 @@ impl<'s> Parser<'s> {
                         Diagnostic::error(start, "this comment is not closed")
                             .with_help("end it with `*/`"),
                     );
-                    // Errors at the end of the text can be mere consequences of the unclosed comment, so they are not
-                    // reported.
+                    // The unclosed comment can cause further errors at the end of the text, so these are not reported.
                     after_invalid = true;
                 }
                 _ => break (Some(kind), span),

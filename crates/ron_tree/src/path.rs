@@ -57,9 +57,9 @@ fn step<'v>(value: &'v Value, item: &str, is_variant_matched: bool) -> Step<'v> 
             .iter()
             .find(|(key, _)| key.as_str() == Some(item))
             .map(|(_, value)| value),
-        // A tuple with one item is usually the content of a variant, so the path skips the tuple. However, if the path
-        // continues with an index and the only item of the tuple is neither a tuple nor a list, the tuple is not
-        // skipped, because the index refers to the tuple itself.
+        // A tuple with one item is usually the content of a variant, and the path skips it. There is one exception: the
+        // path continues with an index, and the item is neither a tuple nor a list. Then the index refers to the tuple
+        // itself.
         ValueKind::Tuple(items)
             if items.len() == 1
                 && (index.is_err()

@@ -19,7 +19,7 @@ use super::parser::{Lexeme, Parser};
 pub(super) enum Closing {
     /// The closing bracket matches the innermost open bracket.
     Matching,
-    /// The closing bracket is mistyped: a bracket of a different kind would close the innermost open bracket.
+    /// The closing bracket is mistyped. It was meant to close the innermost open bracket, but has a different kind.
     Mistyped,
     /// The closing bracket matches an outer open bracket, so the closing bracket of the innermost open bracket is
     /// missing.

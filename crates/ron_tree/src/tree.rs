@@ -52,8 +52,8 @@ pub enum ValueKind {
 pub struct Struct {
     /// The fields in the order of the text.
     pub fields: Vec<Field>,
-    /// Whether everything between the parentheses could be read. If a part could not be read, a field that seems to be
-    /// missing is possibly in that part.
+    /// Whether everything between the parentheses could be read. If this is `false`, a field that seems to be missing
+    /// can be in the part that could not be read.
     pub complete: bool,
 }
 

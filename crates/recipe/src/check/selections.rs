@@ -100,7 +100,7 @@ fn collect<'v>(value: &'v Value, named: &mut Vec<(Named<'v>, Span)>) {
     value.parts().for_each(|part| collect(part, named));
 }
 
-/// Adds the name in a call such as `Material("..")` to `named`.
+/// Adds the name in a call such as `Material("..")` to the list `named`.
 fn add_name<'v>(
     call: &'v Call,
     name: fn(&'v str) -> Named<'v>,
@@ -113,7 +113,7 @@ fn add_name<'v>(
     }
 }
 
-/// Adds the elements with the ids `numbers` to `named`.
+/// Adds the elements with these ids to the list `named`.
 fn add<'v>(
     numbers: impl Iterator<Item = &'v Value>,
     element: fn(u32) -> Named<'v>,

@@ -1,8 +1,8 @@
 //! Compares two scenes.
 //!
 //! Objects with the same name are compared. If each scene has exactly one object without a partner of the same name,
-//! these two objects are compared, too. If a file contains only one mesh, the mesh often has the name of the file. Thus
-//! the same mesh can have different names in two files.
+//! these two objects are compared, too. A mesh that is alone in its file often has the name of the file, so the same
+//! mesh can have different names in two files.
 
 mod attributes;
 mod meshes;

@@ -31,7 +31,7 @@ pub(super) fn check(
 ///
 /// # Errors
 ///
-/// Returns an error if a mesh does not have the attribute, or if there are no values.
+/// Returns an error if a mesh does not have the attribute, or if no element has a value.
 pub(crate) fn values(
     subject: Subject,
     name: &str,

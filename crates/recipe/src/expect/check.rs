@@ -49,7 +49,7 @@ impl Expectation {
     }
 
     /// Returns the name of the object with which the expectation compares the meshes. `None` if the expectation
-    /// compares the meshes with no object of the scene.
+    /// compares the meshes with a mesh in a file, or does not compare meshes.
     fn other_object(&self) -> Option<&str> {
         match self {
             Self::Same {
@@ -268,8 +268,8 @@ fn count(of: &Elements, object: &Object, mesh: &Mesh, subject: Subject) -> Resul
     Ok(n as u64)
 }
 
-/// Checks that the Hausdorff distance of two meshes is certainly below a limit. If the limit is small, the tolerance of
-/// the measurement is a fraction of the limit, so that small limits can be checked, too.
+/// Checks that the Hausdorff distance of two meshes is certainly below a limit. For a small limit, the measurement has
+/// a smaller tolerance, so that the limit can be checked, too.
 fn distance_below(
     mesh: &Mesh,
     other: &Mesh,

@@ -180,7 +180,7 @@ pub enum Expectation {
         min: Option<f64>,
         /// The largest angle is at most this value.
         max: Option<f64>,
-        /// At least one angle has this value or a larger value.
+        /// The largest angle is at least this value.
         reaches: Option<f64>,
     },
     /// The length, in scene units, of every selected edge. Fails if the selection is empty.
@@ -306,8 +306,7 @@ pub enum Expectation {
         min: Option<u64>,
         /// At most this number of motions.
         max: Option<u64>,
-        /// The allowed distance between the image of a vertex under a motion and the vertex with which the image is
-        /// matched.
+        /// The allowed distance between a vertex after the motion and the vertex onto which the motion maps it.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
@@ -327,7 +326,7 @@ pub enum Expectation {
         #[schemars(range(min = 1.0))]
         max: f64,
     },
-    /// The number of faces that overlap another face in the texture of the same mesh. Faces that only share corners or
+    /// The number of faces that overlap another face of the same mesh in the texture. Faces that only share corners or
     /// sides do not overlap. Fails if no mesh has the texture coordinates.
     UvOverlap {
         /// The name of the texture coordinates. Defaults to `uv`.
@@ -352,8 +351,8 @@ pub enum Expectation {
     Attribute {
         /// The name of the attribute.
         name: String,
-        /// Which elements. If omitted, all elements of one kind: the first kind in the order vertices, faces, corners,
-        /// edges that has an attribute of this name.
+        /// Which elements. If omitted, all vertices, faces, corners or edges: the first of these kinds that has an
+        /// attribute of this name.
         of: Option<Elements>,
         /// The index of the component of a vector, starting at 0. Required for vectors.
         #[schemars(range(max = 3))]
@@ -393,7 +392,7 @@ pub enum OtherMesh {
     File(String),
 }
 
-/// The kind of elements that have values of an attribute.
+/// The kind of elements to which an attribute gives values.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum AttributeDomain {
@@ -431,8 +430,8 @@ const fn yes() -> bool {
 }
 
 impl Expectation {
-    /// Returns an error if the expectation itself is wrong, whatever the scene contains. An expectation that can never
-    /// fail counts as wrong.
+    /// Returns an error if the expectation is invalid for every scene. An expectation that can never fail is invalid,
+    /// too.
     pub fn problem(&self) -> Option<&'static str> {
         let needs_bound = match self {
             Self::Objects { eq, min, max }
@@ -490,7 +489,7 @@ impl Expectation {
         }
     }
 
-    /// Returns the mesh with which the expectation compares the checked meshes, if there is such a mesh.
+    /// Returns the mesh with which the expectation compares the checked meshes, if there is one.
     pub fn other_mesh(&self) -> Option<&OtherMesh> {
         match self {
             Self::Same { r#as, .. } => Some(r#as),

@@ -11,7 +11,8 @@ use super::violation::Violation;
 /// be much larger than the meshes.
 const MAX_BYTES: u64 = 1 << 36;
 
-/// A [`Subject`] (a scene to check) whose objects are the instances of the objects of another subject, in scene space.
+/// A [`Subject`] (a scene to check) that is made from another subject. Each instance of an object in the original scene
+/// becomes an object in scene space.
 pub(crate) struct PlacedSubject<'a> {
     scene: Cow<'a, Scene>,
     on: Option<Vec<String>>,

@@ -16,7 +16,7 @@ use super::violation::{ActualValue, Violation, check_number, check_position};
 
 /// Reads the files that expectations refer to.
 pub trait Reader: Sync {
-    /// Reads the scene in a file. Reports each file that is read to [`Files::has_read`].
+    /// Reads the scene in a file. Calls [`Files::has_read`] for each file that is read.
     ///
     /// # Errors
     ///

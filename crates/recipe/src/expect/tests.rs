@@ -1,4 +1,4 @@
-//! Checks expectations against small scenes, and the messages of expectations that do not hold.
+//! Checks expectations against small scenes. If an expectation does not hold, its message is checked, too.
 
 mod counts;
 mod logic;
@@ -46,8 +46,8 @@ fn expectation(text: &str) -> Expectation {
     ron_tree::from_str(text).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-/// Checks an expectation against some objects of a scene. The file `octahedron.obj` contains an octahedron;
-/// every other file cannot be read.
+/// Checks an expectation against some objects of a scene. The file `octahedron.obj` contains an octahedron; no other
+/// file can be read.
 fn check_on(scene: &Scene, on: Option<&[String]>, text: &str) -> Result<(), String> {
     let files = Files {
         input: "folder".into(),
@@ -129,7 +129,7 @@ fn measures_in_space_see_every_instance_and_counts_see_each_object_once() {
     assert_eq!(check_on(&scene, Some(&["flat".to_owned()]), at), Ok(()));
 }
 
-/// Asserts that the expectation `holds` holds, and that `fails` fails with the message.
+/// Asserts that the first expectation holds, and that the second one fails with this message.
 #[track_caller]
 fn holds_and_fails(scene: &Scene, holds: &str, fails: &str, message: &str) {
     assert_eq!(check(scene, holds), Ok(()), "{holds}");

@@ -206,9 +206,10 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Improves the help text of errors about unknown parameters. If an unknown parameter has the name of a field, such as
-/// `on`, that belongs outside of the parentheses of the operation or expectation, the help text says where to write
-/// this field. `inner` is the name of the field that contains the operation or expectation: `run` or `that`.
+/// Improves the help text of errors about unknown parameters. Some fields, such as `on`, belong outside of the
+/// parentheses of the operation or expectation. If an unknown parameter has the name of one of these fields, the help
+/// text says where to write the field. `inner` is the name of the field that contains the operation or expectation:
+/// `run` or `that`.
 pub(super) fn explain_outer_fields(
     wrong: &mut [Diagnostic],
     call: &Value,

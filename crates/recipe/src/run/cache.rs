@@ -73,8 +73,8 @@ pub trait CachedRun {
     /// Writes everything that was recorded about the last step to the cache.
     fn flush(&mut self);
 
-    /// Ends the run. The first value is the problem that prevents the cache from storing anything, or `None`. The
-    /// second value has one line for each result that could not be stored or loaded.
+    /// Ends the run. The first returned value is the problem that prevents the cache from storing anything, or `None`.
+    /// The second returned value has one line for each result that could not be stored or loaded.
     fn finish(self: Box<Self>) -> (Option<String>, Vec<String>);
 }
 

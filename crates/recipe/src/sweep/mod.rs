@@ -36,7 +36,7 @@ use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 pub use metric::{Measured, Metric, Statistic};
 
-/// The version of sweeps that this program reads.
+/// The version of the sweep file format that this program reads.
 pub const SWEEP_VERSION: i128 = 1;
 
 /// The maximum number of cells (runs) of a sweep.

@@ -149,8 +149,8 @@ fn vertices_with_an_unmatched_image_violate_a_symmetry() {
 
     let found = names(&scene, "SymmetricUnder(group: CubeRotations)");
 
-    // All 8 vertices are named, because each vertex is mapped by some rotation to the position that the moved vertex
-    // has left.
+    // No vertex is at the old position of the moved vertex. Each vertex is mapped to this position by some rotation, so
+    // all 8 vertices are named.
     assert_eq!(found.len(), 8);
 }
 

@@ -54,9 +54,9 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
     run_from(recipe, 0, Scene::new(), settings, listener)
 }
 
-/// Runs a recipe starting at the step with index `first`. `scene` is the scene before this step, which an earlier run
-/// has passed to [`Listener::scene_after`] or returned in an [`Outcome`]. Use this function after a change of one step:
-/// the steps before this step need not run again.
+/// Runs a recipe starting at the step with index `first`. `scene` is the scene before this step. An earlier run has
+/// passed this scene to [`Listener::scene_after`] or returned it in an [`Outcome`]. Use this function after a change of
+/// one step: the steps before this step need not run again.
 ///
 /// The steps before `first` do not write their files again, and the expectations after these steps are not checked
 /// again. If `first` is not 0, the cache is not used. The cache identifies a scene by the steps that produced it, and

@@ -123,9 +123,9 @@ fn unmet_in_text<'o>(
     places.into_values().collect()
 }
 
-/// In the syntax tree of the recipe, finds the expectation that does not hold. Returns the expectation and the edits
-/// that record the actual value, or the reason why the expectation cannot be fixed. `turns` has one entry for each
-/// repetition of the step.
+/// Finds an expectation in the syntax tree of the recipe. `turns` has one entry for each repetition of the step: the
+/// failure of the expectation, or `None` if the expectation holds. Returns the expectation and the edits that record
+/// the actual value, or the reason why the expectation cannot be fixed.
 fn find_fix<'t>(
     tree: &'t Value,
     recipe: &Recipe,

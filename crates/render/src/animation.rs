@@ -16,7 +16,7 @@ pub struct Timing {
     pub plays: u16,
 }
 
-/// Encodes images as an animated PNG file. No colors and no transparency are lost.
+/// Encodes images as an animated PNG file, which keeps all colors and their transparency.
 ///
 /// Each entry of `texts` is a pair of strings: a keyword of 1 to 79 Latin-1 characters, and its text.
 ///

@@ -57,8 +57,8 @@ pub struct Part<'a> {
 /// The appearance of faces.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Linear red, green, blue and alpha, from 0 to 1. Alpha is the fraction of the samples of a pixel that the surface
-    /// covers.
+    /// Linear red, green, blue and alpha, from 0 to 1. Of the samples in each pixel, the surface covers a fraction that
+    /// is equal to alpha.
     pub color: [f32; 4],
     /// The texture. The color, including alpha, is multiplied by the texture.
     pub texture: Option<Arc<Texture>>,

@@ -243,7 +243,7 @@ fn jpeg_size(decoder: &JpegDecoder<ZCursor<&[u8]>>) -> [u32; 2] {
     info.map_or([0; 2], |i| [i.width, i.height].map(u32::from))
 }
 
-/// Converts the samples that a [`decoder`] returned to 8-bit RGBA pixels.
+/// Converts samples from a [`decoder`] to 8-bit RGBA pixels.
 pub(crate) fn rgba(info: &png::OutputInfo, mut bytes: Vec<u8>) -> Vec<[u8; 4]> {
     if info.bit_depth == png::BitDepth::Sixteen {
         bytes = (bytes.as_chunks().0.iter())
@@ -370,7 +370,7 @@ mod tests {
         for end in 0..complete.len() - 12 {
             assert!(Image::from_png(&complete[..end]).is_err(), "{end}");
         }
-        // The header of this file declares a side that is too long, and the data is incomplete.
+        // The width in the header of this file is too large, and the pixels of the file are incomplete.
         let mut huge = Vec::new();
         let encoder = png::Encoder::new(&mut huge, LARGEST_SIDE + 1, 1);
         let mut writer = encoder.write_header().unwrap();

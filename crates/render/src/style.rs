@@ -67,8 +67,8 @@ impl Default for Lines {
 pub struct Style {
     /// The lighting of surfaces.
     pub shading: Shading,
-    /// The smallest angle between the normals of two faces at which the edge between the faces is shaded as sharp, in
-    /// degrees. This angle has no effect if the mesh stores normals.
+    /// An edge is shaded as sharp if the normals of its two faces differ by at least this angle, in degrees. This angle
+    /// has no effect if the mesh stores normals or smoothing groups.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub sharp: f64,
     /// The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.

@@ -39,8 +39,8 @@ fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
 
 impl Attributes {
     /// Adds the certain losses of a step to the list `losses`, and its possible losses to the list `possible`. Also
-    /// records the attributes that are certainly lost, because help texts about a missing attribute name the step that
-    /// dropped it.
+    /// records the attributes that are certainly lost: if one of them is missing later, the help text names the step
+    /// that dropped it.
     pub(super) fn losses(
         &mut self,
         step: &RecipeStep,

@@ -284,8 +284,8 @@ fn check_output(
             found.push(Diagnostic::error(span, message).with_help(help));
         }
         Ok(full) if !files.store.exists(&full) => {
-            // A missing reference file is not an error: `meshwright test --update` must be able to run the recipe,
-            // because it creates the file.
+            // A missing reference file is not an error, because `meshwright test --update` runs the recipe to create
+            // the file.
             let message = format!("the file {} does not exist", full.display());
             let help = "run `meshwright test --update` to create it";
             found.push(Diagnostic::warning(span, message).with_help(help));

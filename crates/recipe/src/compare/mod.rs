@@ -104,9 +104,9 @@ impl Difference {
         }
     }
 
-    /// Whether the scenes have the same objects, with the same elements in the same order, and differ only in positions
-    /// and attribute values of the meshes. These values differ by at most `tolerance`. Materials, and objects that are
-    /// not meshes, must be equal. `tolerance` has the unit of the values that are compared.
+    /// Whether the scenes have the same objects, with the same elements in the same order. Positions and attribute
+    /// values of meshes can differ by at most `tolerance`. Materials, and objects that are not meshes, must be equal.
+    /// `tolerance` has the unit of the values that are compared.
     pub fn is_within(&self, tolerance: f64) -> bool {
         self.identical
             || (self.only_first.is_empty()

@@ -30,7 +30,7 @@ fn coordinates<'m>(mesh: &'m Mesh, name: &str) -> Option<&'m [DVec2]> {
     DVec2::of(&column.values)
 }
 
-/// Returns the stretch of the mesh that has the largest stretch; see [`uv::Stretch::aspect`].
+/// Returns the largest stretch of all meshes; see [`uv::Stretch::aspect`].
 pub(super) fn stretch(subject: Subject, name: &str) -> Result<f64, Violation> {
     let meshes = textured(subject, name)?.into_iter();
     let aspects = meshes.filter_map(|(mesh, uvs)| Some(uv::stretch(mesh, uvs)?.aspect));

@@ -225,8 +225,8 @@ impl Reader<'_, '_> {
         drafts
     }
 
-    /// Returns the index of the text of a called recipe in the list of texts. Reports an error and returns `None` in
-    /// three cases: the text cannot be read, the recipe calls itself, or calls are nested too deeply.
+    /// Returns the source text of a called recipe, as an index into the list of source texts. Reports an error and
+    /// returns `None` in three cases: the text cannot be read, the recipe calls itself, or calls are nested too deeply.
     fn open_called(&mut self, path: &Path, span: Span) -> Option<usize> {
         let mut chain = vec![self.scope];
         while let Some((caller, _)) = self.shared.scopes[*chain.last()?].called {

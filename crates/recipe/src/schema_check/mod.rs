@@ -150,7 +150,7 @@ impl<'n> Place<'n> {
         }
     }
 
-    /// Returns the text that a message such as `expected a number` needs at its end to name the field or variant.
+    /// Returns the end of a message such as `expected a number`: the text that names the field or variant.
     fn of(self) -> String {
         match self.name {
             Some(name) if self.inside => format!(" in `{name}`"),

@@ -17,8 +17,8 @@ pub(super) struct WrongKind {
 /// The name of a selection type, and the names of its variants.
 type Variants = (&'static str, Vec<String>);
 
-/// Explains the error that the variant `name` belongs to another selection type than the expected type `expected`.
-/// Returns `None` if `expected` is not a selection type, or if no selection type has the variant.
+/// Explains an error: the variant `name` belongs to a selection type other than `expected`. Returns `None` if
+/// `expected` is not a selection type, or if no selection type has the variant.
 pub(super) fn of_other_kind(name: &str, expected: &str) -> Option<WrongKind> {
     static ALL: LazyLock<[Variants; 3]> = LazyLock::new(|| {
         [

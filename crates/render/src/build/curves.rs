@@ -14,7 +14,7 @@ use crate::drawing::{Channel, NO_FACE, Part, Surface};
 use crate::figure::construction;
 use crate::style::Lines;
 
-/// The number of cells along each side of the grid of cells as which a patch is drawn.
+/// A patch is drawn as a square grid of cells. This is the number of cells along each side of the grid.
 const CELLS: u32 = 24;
 /// The number of line segments into which a curve is divided for drawing.
 const SEGMENTS: u32 = 200;
@@ -95,9 +95,9 @@ impl Builder<'_, '_> {
         self.control_polygon(&control);
     }
 
-    /// Adds polylines. If the style draws points, also adds dots at the points of the polylines. If the polylines are
-    /// the levels of de Casteljau's construction, they have the colors that these levels have in a figure of the
-    /// construction, unless the style sets a color.
+    /// Adds polylines. If the style draws points, also adds dots at the points of the polylines. If the style sets a
+    /// color, the polylines have this color. Otherwise, if the polylines are the levels of de Casteljau's construction,
+    /// they have the same colors as in a figure of the construction.
     pub(super) fn polylines(&mut self, lines: &[Vec<DVec3>], color: Color) {
         let default = self.line_color(color);
         let are_levels = self.style.color.is_none() && are_levels(lines);

@@ -44,8 +44,8 @@ pub struct Stroke {
 }
 
 impl Overlays {
-    /// Checks that all objects that the overlays name are meshes of the scene, and that colorings have one number for
-    /// each element.
+    /// Checks that the objects of highlights and colorings are meshes of the scene, and that each coloring has one
+    /// number for each element.
     fn check(&self, scene: &Scene) -> Result<(), PictureError> {
         let mesh = |name: &str| match scene.object(name).map(|o| &o.geometry) {
             Some(Geometry::Mesh(mesh)) => Ok(mesh),
@@ -100,7 +100,7 @@ pub enum Elements {
     Faces(Vec<FaceId>),
 }
 
-/// Numbers of the elements of a mesh that are shown as colors, for example the curvature at each vertex.
+/// One number for each element of a mesh, shown as a color: for example, the curvature at each vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coloring {
     /// The name of the object, which must be a mesh.

@@ -79,8 +79,8 @@ fn sharp_edges(mesh: &Mesh, areas: &[[f32; 3]], sharp: f64) -> Vec<bool> {
     })
 }
 
-/// Whether the cosine of the angle between two vectors is greater than `limit` by more than the rounding errors. Most
-/// edges are decided by this test, which needs no square root and no division.
+/// Whether the cosine of the angle between two vectors is greater than `limit` by more than the rounding errors. This
+/// test is enough for most edges, and needs no square root and no division.
 fn is_clearly_smooth(a: DVec3, b: DVec3, limit: f64) -> bool {
     let dot = a.dot(b);
     let lengths = a.length_squared() * b.length_squared();
@@ -94,7 +94,7 @@ fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) 
         return [0.0; 3];
     };
     let mut sum = areas[face.index()];
-    // Walks counter-clockwise around the vertex. The edge of a face that ends at the vertex leads to the next face.
+    // Walks counter-clockwise around the vertex, each time across the half-edge of the face that ends at the vertex.
     let mut g = h;
     loop {
         let before = mesh.prev(g);
@@ -108,7 +108,7 @@ fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) 
             None => break,
         }
     }
-    // Walks clockwise around the vertex. The edge of a face that starts at the vertex leads to the next face.
+    // Walks clockwise around the vertex, each time across the half-edge of the face that starts at the vertex.
     g = h;
     while !is_sharp[g.edge().index()] {
         let Some(f) = mesh.face(g.twin()) else {

@@ -80,8 +80,8 @@ impl Fit {
     /// Returns the slopes of the right and the upper clipping plane; zero without perspective.
     ///
     /// Let the camera be at (cx, cy, cz) and the slope of the right plane be tx. A point (x, y, z) is inside of the
-    /// right plane if x - cx <= tx (cz - z). This is equivalent to x + tx z <= cx + tx cz. The largest value of x + tx
-    /// z over all points thus determines the right plane. The left, upper and lower planes are analogous.
+    /// right plane if x - cx <= tx (cz - z). This is equivalent to x + tx z <= cx + tx cz. Therefore the point with the
+    /// largest value of x + tx z determines the right plane. The left, upper and lower planes are analogous.
     fn slant(&self) -> DVec2 {
         self.tangent.map_or(DVec2::ZERO, |_| self.half)
     }

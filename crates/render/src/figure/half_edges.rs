@@ -99,7 +99,7 @@ pub fn half_edges(mesh: &Mesh, faces: &[FaceId], width: f64) -> (Svg, usize) {
     (svg, faces.len() - visible.len())
 }
 
-/// Whether the front of a face is seen, and at an angle that leaves enough room for names. `face_normal` can have any
+/// Whether the front of a face is seen at an angle that leaves enough room for names. `face_normal` can have any
 /// length.
 fn is_visible(face_normal: DVec3, direction: DVec3) -> bool {
     const MIN_COSINE: f64 = 0.15;
@@ -172,7 +172,8 @@ fn inset(distance: f64) -> f64 {
     (GAP * 1.8).min(0.3 * distance)
 }
 
-/// Draws a loop of half-edges, with their names and the curves that connect them. `moved` moves a corner into the face.
+/// Draws a loop of half-edges, with their names and the curves that connect them. The function `moved` returns the
+/// position of a corner after it was moved into the face.
 fn write_loop(
     svg: &mut Svg,
     mesh: &Mesh,

@@ -101,7 +101,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// Creates a run on the baseline with the size of the text.
+    /// Creates a run that stands on the baseline. The font size of the run is the size of the text.
     pub fn new(font: Font, text: impl Into<String>) -> Self {
         Self {
             text: text.into(),
@@ -135,7 +135,7 @@ impl Run {
     }
 }
 
-/// Which point of a line of text lies at the position of the text.
+/// The point of a line of text that is placed at the position of the text.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Anchor {
     /// The start of the baseline.
@@ -157,7 +157,7 @@ pub struct Text {
     /// The color and the width, in pixels, of an outline behind the letters. The outline makes the letters readable on
     /// any background.
     pub halo: Option<(Color, f64)>,
-    /// Which point of the text lies at its position.
+    /// The point of the text that is placed at the position of the text.
     pub anchor: Anchor,
 }
 

@@ -17,7 +17,7 @@ use super::legend::{Legend, Scale, legend_size, write};
 use super::{Color, Command, Paint, Svg};
 use crate::ColorMap;
 
-/// What the colors inside charts show.
+/// The meaning of the colors inside charts.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum UvFill {
     /// Nothing: charts are not filled.
@@ -30,7 +30,8 @@ pub enum UvFill {
     Stretch,
 }
 
-/// The aspect that [`UvFill::Stretch`] shows with the last color of the color map; see [`geometry::uv::Stretch`].
+/// [`UvFill::Stretch`] shows this aspect, and any larger aspect, in the last color of the color map. See
+/// [`geometry::uv::Stretch`].
 pub const MAX_ASPECT: f64 = 1.5;
 
 const WHITE: Color = [255; 4];

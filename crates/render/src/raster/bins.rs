@@ -28,7 +28,7 @@ const MAX_LISTED_TILES: usize = 64;
 const ENTRIES_PER_ITEM: usize = 8;
 /// The constant part of the maximum number of entries; see `ENTRIES_PER_ITEM`.
 const EXTRA_ENTRIES: usize = 4096;
-/// The bit that is set in a list entry that refers to a clipped triangle.
+/// This bit is set in each list entry for a clipped triangle.
 const CLIPPED: u32 = 1 << 31;
 
 /// Items sorted by the tiles that they touch.

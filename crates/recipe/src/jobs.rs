@@ -72,10 +72,9 @@ impl<B, S, W> Jobs<B, S, W> {
     /// Runs the jobs. Calls `ended` on the calling thread. Each call of `ended` receives the jobs that have ended since
     /// the previous call, in the order in which they ended. Each job is passed to `ended` exactly once.
     ///
-    /// Jobs start in the order of their indices. A job starts if two conditions hold: fewer jobs are running than the
-    /// maximum, and the memory of the job and of all running jobs together is within the budget. If a job needs more
-    /// memory than the budget, it counts as if it needed exactly the budget. If a job panics, the other jobs are not
-    /// affected.
+    /// Jobs start in the order of their indices. A job starts if fewer jobs are running than the maximum. In addition,
+    /// the memory of the job and of all running jobs together must be within the budget. If a job needs more memory
+    /// than the budget, it counts as if it needed exactly the budget. If a job panics, the other jobs are not affected.
     ///
     /// This method blocks, so it must not be called from a thread of a rayon pool.
     ///
@@ -294,8 +293,8 @@ const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. For each step, the forecast can have an upper limit for
     /// the memory that the meshes take after the step. If all steps have an upper limit, the estimate is the size of
-    /// the input files plus the largest of these limits. Otherwise, the estimate is the larger of two numbers: eight
-    /// times the size of the input files, and the largest amount of memory that the meshes certainly take after a step.
+    /// the input files plus the largest of these limits. Otherwise, the estimate is eight times the size of the input
+    /// files. If the meshes certainly take more memory than this after a step, the estimate is that amount of memory.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

@@ -141,7 +141,7 @@ impl Kind {
     }
 }
 
-/// A step of a recipe, as it was read.
+/// A step of a recipe that was read.
 #[derive(Clone, Debug)]
 pub struct RecipeStep {
     /// The id of the step, which other parts of the recipe use to refer to it.
@@ -149,9 +149,10 @@ pub struct RecipeStep {
     /// The current name of the operation, even if the recipe uses an earlier name. If the operation is unknown, this is
     /// the name as written in the recipe.
     pub name: String,
-    /// The label, which is shown to users and which seeds random choices. The label has three parts, as in
-    /// `clean/Weld#2`: the names of the calls around the step, the id of the step, and the numbers of the repetitions
-    /// around the step. If the step has no id, the second part is the name of the operation.
+    /// The label, which is shown to users and which seeds random choices. An example of a label is `clean/Weld#2`. The
+    /// first part contains the names of the calls around the step. The second part is the id of the step, and the third
+    /// part contains the numbers of the repetitions around the step. If the step has no id, the second part is the name
+    /// of the operation.
     pub label: String,
     /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,
@@ -169,8 +170,8 @@ pub struct RecipeStep {
     pub span: Span,
     /// The operation as written in the recipe, but with parameters replaced by their values.
     pub value: Value,
-    /// One number for each `Repeat` around the step, from the outermost to the innermost. Each number says to which
-    /// repetition of that `Repeat` the step belongs, counted from 1.
+    /// One number for each `Repeat` around the step, from the outermost to the innermost. The number says to which
+    /// repetition the step belongs, counted from 1.
     pub(crate) turns: Vec<u32>,
     /// The label without the numbers of the repetitions.
     pub(crate) stem: String,

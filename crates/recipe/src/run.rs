@@ -4,9 +4,9 @@
 //! their files to a temporary folder. The files are moved to the output folder only after all steps have run and all
 //! expectations hold.
 //!
-//! If a [cache](StepCache) is used, a step runs only in two cases: the cache does not have its result, or a scene is
-//! needed that the cache does not have. A scene is needed if a step must run on it, if an expectation must be checked
-//! against it, or if the listener or the cache requests it.
+//! If a [cache](StepCache) is used, a step runs only if the cache does not have the result of the step, or does not
+//! have the scene after the step although the scene is needed. A scene is needed if the next step must run, or if an
+//! expectation must be checked against the scene. The listener and the cache can also request a scene.
 
 mod cache;
 mod listener;
@@ -119,7 +119,7 @@ pub fn run_from(
 struct Runner<'a> {
     recipe: &'a Recipe,
     settings: Settings<'a>,
-    /// For each scope, the folder from which its steps read and the temporary folder to which they write.
+    /// For each scope: the folder from which the steps of the scope read, and the temporary folder to which they write.
     files: Vec<Files>,
     /// The file accesses of the current step, or of the current expectation.
     log: FileLog,

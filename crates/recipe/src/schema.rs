@@ -83,8 +83,8 @@ pub(crate) fn flow(kind: Kind) -> Json {
     flow_fields(kind, &json!({}))
 }
 
-/// Returns the names of the kinds of steps that contain other steps, [`Call`, `Repeat` and `If`](crate::read()), and
-/// the schemas of their parameters.
+/// Returns the names of the steps that contain other steps ([`Call`, `Repeat` and `If`](crate::read())), each with the
+/// schema of its parameters.
 pub fn step_kinds() -> Vec<(&'static str, Json)> {
     let kinds = Kind::ALL.into_iter();
     kinds.map(|kind| (kind.name(), flow(kind))).collect()
@@ -213,8 +213,8 @@ fn recipe(param: &Json, step: &Json, expectation: &Json, on_loss: &Json) -> Json
 }
 
 fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
-    // A description in the same object as `$ref` or `oneOf` would become part of that schema, so the schema is wrapped
-    // in `allOf`.
+    // If the description were in the same object as `$ref` or `oneOf`, it would become part of the schema of the value.
+    // Therefore this schema is wrapped in `allOf`.
     let described = |schema: &Json, doc: &str| json!({ "allOf": [schema], "description": doc });
     json!({
         "type": "object",

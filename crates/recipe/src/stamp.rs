@@ -37,8 +37,7 @@ pub struct Run {
     /// The preset that was chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
-    /// The parameters that were set, with their values as text. Paths have the same form as in
-    /// [`inputs`](Self::inputs).
+    /// The parameters that were set, with their values as text. Paths are written as in [`inputs`](Self::inputs).
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub set: Pairs,
     /// The digest of each file that the run read. The keys are the paths of the files relative to the recipe's folder.

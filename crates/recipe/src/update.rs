@@ -292,9 +292,9 @@ fn not_from_parameter(value: &Value) -> Result<(), String> {
     }
 }
 
-/// Formats a number as RON in the style of `written`, which is the text of the number that it replaces. A whole number
-/// has a decimal point only if `written` has one or has an exponent. The digits are grouped if `written` has digit
-/// groups.
+/// Formats a number as RON. `written` is the text of the number that is replaced, and determines the style. A whole
+/// number has a decimal point only if `written` has one or has an exponent. The digits are grouped if `written` has
+/// digit groups.
 fn float_like(x: f64, written: &str) -> Result<String, String> {
     if !x.is_finite() {
         return Err(format!("{x} cannot be recorded"));

@@ -224,8 +224,8 @@ const ORTHOGRAPHIC_ANGLE: f64 = 30.0;
 impl Up {
     /// For `Auto`, returns the upward axis of a scene with these points. For the other axes, returns `self`.
     fn resolved(self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
-        /// A scene stands on a plane if its lowest point is nearer to the plane than this fraction of the size of the
-        /// scene, and its highest point is farther above the plane.
+        /// A scene stands on a plane if its lowest point is near the plane, and its highest point is above the plane
+        /// and not near it. A point is near if its distance is at most this fraction of the size of the scene.
         const TOLERANCE: f64 = 1e-3;
         if self != Self::Auto {
             return self;
@@ -317,8 +317,8 @@ impl View {
     ///
     /// # Errors
     ///
-    /// Returns [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or if the camera
-    /// has no direction because `from` and `to` are equal.
+    /// Returns [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or if `from` and
+    /// `to` are equal, so that the camera has no direction.
     pub fn new(
         camera: &Camera,
         points: &impl Fn(&mut dyn FnMut(DVec3)),
@@ -396,8 +396,8 @@ impl View {
         DVec3::new(p.dot(x), p.dot(y), -p.dot(z))
     }
 
-    /// Returns a number that tells on which side of a clipping plane the point `v` lies. The number is at least 0 on
-    /// the visible side, and it is linear in `v`. `v` is in [camera coordinates](Self::camera_space).
+    /// Returns a number that says whether the point `v` is on the visible side of a clipping plane. The number is at
+    /// least 0 on the visible side, and it is linear in `v`. `v` is in [camera coordinates](Self::camera_space).
     ///
     /// Plane 0 is the near plane. Planes 1 to 4 are to the left, to the right, above and below. In the picture, each of
     /// these four planes is a line at a distance of `far` pixels from the upper left corner.

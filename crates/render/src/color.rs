@@ -120,8 +120,8 @@ pub fn to_linear(value: u8) -> f32 {
 
 /// Returns the sRGB value of linear light (IEC 61966-2-1, 1999). The light is clamped to the range from 0 to 1.
 pub fn to_srgb(light: f32) -> u8 {
-    /// The number of equal steps into which the table divides the range from 0 to 1. With this number of steps,
-    /// rounding to a step hardly ever changes the sRGB value: even where sRGB values rise most steeply, about 20
+    /// The number of equal steps into which the table divides the range from 0 to 1. The steps are so small that
+    /// rounding to a step hardly ever changes the sRGB value. Even where sRGB values rise most steeply, about 20
     /// consecutive entries of the table have the same sRGB value.
     const STEPS: usize = 1 << 16;
     static TABLE: LazyLock<Vec<u8>> = LazyLock::new(|| {

@@ -40,7 +40,7 @@ pub enum PictureError {
     /// The bytes are not an image that can be read.
     #[error("the image cannot be read: {0}")]
     Decode(String),
-    /// One of two files that are compared is not an image that can be read.
+    /// One of the two compared files is not an image that can be read.
     #[error("image {} of 2 cannot be read: {why}", .file + 1)]
     Unreadable {
         /// The index of the file, 0 or 1.

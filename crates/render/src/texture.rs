@@ -157,10 +157,10 @@ impl Texture {
         self.scale_and_rotate(DVec2::new(uv.x, 1.0 - uv.y)) + DVec2::from(self.transform.offset)
     }
 
-    /// Returns a mipmap level as graphics cards store it. The width and height of the level are the width and height of
-    /// the image, divided by 2 to the power of `level` and rounded down, but at least 1. Alpha is the fraction of a
-    /// pixel that the surface covers. The colors are multiplied by alpha, so that the color of invisible pixels hardly
-    /// affects visible pixels when pixels are interpolated.
+    /// Returns a mipmap level as graphics cards store it. The width and height of the image are divided by 2 to the
+    /// power of `level` and rounded down, but are at least 1. Alpha is the fraction of a pixel that the surface covers.
+    /// The colors are multiplied by alpha, so that the color of invisible pixels hardly affects visible pixels when
+    /// pixels are interpolated.
     pub fn level(&self, level: u32) -> Image {
         let [width, height] = self
             .size()
@@ -191,9 +191,8 @@ impl Texture {
         self.alpha == Alpha::Ignored
     }
 
-    /// Returns linear red, green and blue at texture coordinates with v upwards. `steps` has two differences of texture
-    /// coordinates: from this pixel of the picture to the next pixel on the right, and from this pixel to the next
-    /// pixel below.
+    /// Returns linear red, green and blue at texture coordinates with v upwards. `steps` says how the texture
+    /// coordinates change from this pixel of the picture to the next pixel on the right, and to the next pixel below.
     pub(crate) fn at(&self, uv: DVec2, steps: [DVec2; 2]) -> [f32; 3] {
         let footprint = self.footprint(uv, steps);
         if self.is_opaque() {
@@ -216,9 +215,8 @@ impl Texture {
         })
     }
 
-    /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` has two
-    /// differences of texture coordinates: from this sample to the next sample on the right, and from this sample to
-    /// the next sample below.
+    /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` says how the
+    /// texture coordinates change from this sample to the next sample on the right, and to the next sample below.
     ///
     /// With [`Alpha::Cut`], the interpolated alpha of the first level is compared with the cutoff. For all other mipmap
     /// levels, the alpha of each pixel of the image was compared with the cutoff first, and the results were averaged.

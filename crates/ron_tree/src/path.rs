@@ -5,9 +5,9 @@ use crate::diagnostic::Span;
 
 /// Returns the span of the value at `path` in `value`.
 ///
-/// The path starts at the outermost value. The path consists of the names of fields, variants and keys, and of the
-/// indices of items (counted from 0), as in the JSON form. For example, `["edges", "Random", "count"]` leads to the 24
-/// in `FlipEdges(edges: Random(count: 24))`. The path can omit the names of calls, and the index of the only value in
+/// The path starts at the outermost value. As in the JSON form, the path consists of names (of fields, variants and
+/// keys) and of indices of items, counted from 0. For example, `["edges", "Random", "count"]` leads to the 24 in
+/// `FlipEdges(edges: Random(count: 24))`. The path can omit the names of calls, and the index of the only value in
 /// parentheses. The path never contains `Some`. If the value at `path` does not exist, returns the span of the deepest
 /// existing value on the path.
 pub fn field_span(value: &Value, path: &[String]) -> Span {

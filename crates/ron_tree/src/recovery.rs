@@ -87,7 +87,7 @@ impl Parser<'_> {
             // A tuple has no named fields, so a name at `current` starts a field of the enclosing struct.
             Bracket::Round if contents.is_tuple() && names_field => !innermost.has_name && in_round,
             _ if !starts_line => false,
-            // If a value without a name comes after named fields, it is an item of the enclosing list, and the closing
+            // A value without a name cannot follow named fields. It is an item of the enclosing list, and the closing
             // bracket of the struct is missing.
             Bracket::Round => {
                 !contents.fields.is_empty()

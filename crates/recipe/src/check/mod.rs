@@ -37,8 +37,8 @@ pub struct StepForecast {
     pub bytes: Range,
     /// The data that the step will certainly lose.
     pub losses: Vec<Loss>,
-    /// The data that the step possibly loses. Losses that depend on the values of points and attributes are not listed,
-    /// for example losses that are caused by coincident vertices or by numbers that are not finite.
+    /// The data that the step possibly loses. Losses that depend on the values of points and attributes are not listed.
+    /// For example, coincident vertices or numbers that are not finite can cause losses.
     pub possible_losses: Vec<Loss>,
     /// This step and the steps before it read the first `n_inputs` files of [`Forecast::inputs`].
     pub n_inputs: usize,

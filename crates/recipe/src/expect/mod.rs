@@ -362,10 +362,10 @@ pub enum Expectation {
         /// Every value is at most this number.
         max: Option<f64>,
     },
-    /// A file that a step writes equals a reference file, which `meshwright test --update` creates and updates.
-    /// Pictures (.png, .apng) are compared pixel by pixel. Mesh files are compared by the objects that are read from
-    /// them, and all other files byte by byte. Differences in the recorded provenance, which says how the file was
-    /// made, are ignored.
+    /// A file that a step writes is equal to a reference file. `meshwright test --update` creates and updates the
+    /// reference file. Pictures (.png, .apng) are compared pixel by pixel. Mesh files are compared by the objects that
+    /// are read from them, and all other files byte by byte. Differences in the recorded provenance, which says how the
+    /// file was made, are ignored.
     Output {
         /// The path of the written file, relative to the output folder, as in the step that writes the file.
         path: String,

@@ -1,5 +1,5 @@
-//! The expectation `Output`, which compares a file that a step has written with a reference file in the folder of the
-//! recipe. In the code, the reference file is called `golden`.
+//! The expectation `Output`. It compares a file from a step with a reference file in the folder of the recipe. In the
+//! code, the reference file is called `golden`.
 //!
 //! Pictures are compared pixel by pixel. Mesh files are compared by the objects that are read from them, and all other
 //! files byte by byte. The provenance in a file, which says how the file was made, is ignored.
@@ -131,10 +131,10 @@ fn with_written_file(
     Violation::unmet(format!("{}; the written file {why}", violation.message))
 }
 
-/// Whether the written file can be read without other files. To find out, reads a copy of the file from an otherwise
-/// empty folder, and compares the objects in the copy with the objects in the file. The copy has the name of the
-/// reference file. Returns `false` for an OBJ file with a material library, because the library is missing beside the
-/// copy. Returns `true` if the written file cannot be read as objects.
+/// Whether the written file can be read without other files. To find out, copies the file to an empty folder, and
+/// compares the objects in the copy with the objects in the file. The copy has the name of the reference file. Returns
+/// `false` for an OBJ file with a material library, because the library is missing beside the copy. Returns `true` if
+/// the written file cannot be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(scene) = subject.reader.scene(written, subject.files) else {
         return true;

@@ -8,8 +8,8 @@ use mesh::{DVec3, Mesh, VertexId};
 use super::violation::Violation;
 
 /// An index for finding the vertices of a mesh by position. The list `tree` is a k-d tree. The vertex in the middle of
-/// the list splits the other vertices by one coordinate: the coordinate along which the bounding box of the vertices is
-/// longest. Each half of the list is split in the same way.
+/// the list splits the other vertices by one coordinate. This is the coordinate in which the bounding box of all
+/// vertices is longest. Each half of the list is split in the same way.
 pub(super) struct PositionIndex<'m> {
     mesh: &'m Mesh,
     tree: Vec<(VertexId, u8)>,
@@ -189,8 +189,8 @@ impl FreeVertices {
     }
 }
 
-/// Orders vertices as a k-d tree. With each vertex, stores which coordinate the vertex uses to split its part of the
-/// tree.
+/// Orders vertices as a k-d tree. With each vertex, stores the index of the coordinate by which the vertex splits its
+/// part of the tree.
 fn split(mesh: &Mesh, tree: &mut [(VertexId, u8)]) {
     let positions = tree.iter().map(|&(v, _)| mesh.position(v));
     let Some((min, max)) = positions

@@ -65,8 +65,8 @@ impl Checker {
         }
     }
 
-    /// Reports an unknown field. If the unknown field is probably one of the missing fields with a wrong name, removes
-    /// this missing field from `missing`, so that it is not reported a second time.
+    /// Reports an unknown field. The unknown field is probably a missing field with a wrong name. If so, this function
+    /// removes the missing field from `missing`, so that it is not reported, too.
     fn unknown_field(
         &mut self,
         value: &Value,

@@ -58,9 +58,9 @@ pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
 ///
 /// # Errors
 ///
-/// Returns all errors of the value against the schema. If there are none, returns the error of deserialization. If the
-/// only error is a part of the value that could not be read, the list is empty, because the parser has already reported
-/// this error.
+/// Returns all errors of the value against the schema. If there are none, returns the error of deserialization. The
+/// list is empty if the only error is a part of the value that could not be read. The parser has already reported this
+/// error.
 pub(crate) fn typed<T: DeserializeOwned>(
     value: &Value,
     schema: &Json,

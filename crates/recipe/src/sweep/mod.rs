@@ -69,7 +69,7 @@ struct Entry {
 /// The cells of a sweep.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
-    /// The parameters that change: those of `over`, then those of `zip`, each in the order of the text.
+    /// The parameters that change. Those of `over` come first, then those of `zip`, both in the order of the text.
     pub parameters: Vec<String>,
     /// The axes: one for each parameter of `over`, and one for all parameters of `zip`. The last axis changes fastest.
     pub axes: Vec<Axis>,
@@ -221,8 +221,9 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// Returns all errors: parameters that the recipe does not have, values of a wrong type or out of range, empty
-    /// lists, a parameter that is given twice, lists of `zip` with different lengths, or more than [`MAX_CELLS`] cells.
+    /// Returns all errors. Possible errors are parameters that the recipe does not have or that are given twice, and
+    /// values of a wrong type or out of range. Empty lists, lists of `zip` with different lengths, and more than
+    /// [`MAX_CELLS`] cells are errors, too.
     pub fn grid(&self, parameters: &[Parameter], folder: &Path) -> Result<Grid, Vec<Diagnostic>> {
         let mut diagnostics = Vec::new();
         self.check_names(parameters, &mut diagnostics);
@@ -309,8 +310,8 @@ impl Sweep {
         })
     }
 
-    /// Reports names that are not parameters of the recipe, and names that have values at several locations of the
-    /// sweep, for example in `over` and in `set`.
+    /// Reports names that are not parameters of the recipe. Also reports names that have several entries in the sweep,
+    /// for example in `over` and in `set`.
     fn check_names(&self, parameters: &[Parameter], diagnostics: &mut Vec<Diagnostic>) {
         let mut seen: Vec<&Entry> = Vec::new();
         for entry in self.over.iter().chain(&self.zip).chain(&self.set) {

@@ -372,8 +372,7 @@ fn a_step_that_panics_fails_the_run_and_nothing_is_written() {
     assert_eq!(entries(folder.path()), [""; 0]);
 }
 
-/// A listener that records the message and the locations of each failure, and the digest of the scene in which it
-/// occurred.
+/// A listener that records the message, the locations, and the digest of the scene of each failure.
 #[derive(Default)]
 struct Failures(Mutex<Vec<(String, Vec<ErrorLocation>, Digest)>>);
 

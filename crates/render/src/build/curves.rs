@@ -64,8 +64,8 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Adds the edges of a tessellated surface. The edges must be added before the faces of the surface, because the
-    /// function assumes that the first face of the surface will have the index `n_faces`.
+    /// Adds the edges of a tessellated surface. Must be called before the faces of the surface are added, because their
+    /// indices are assumed to start at `n_faces`.
     fn grid(&mut self, surface: &Tessellation, lines: &Lines) {
         let mut edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
         for (f, corners) in (self.n_faces..).zip(surface.faces()) {

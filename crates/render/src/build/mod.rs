@@ -127,17 +127,17 @@ pub const PALETTE: [Color; 6] = [
 
 /// Converts a scene to a drawing. Returns the drawing, and a message for each texture that cannot be drawn.
 ///
-/// `images` is called with the path of an image file, as written in a material, and returns the bytes of this file. If
-/// `images` returns `None`, or the bytes are not a PNG or JPEG file, the surface is drawn without this texture, and a
-/// message gives the path and the reason.
+/// `images` is called with the path of an image file, as written in a material, and returns the bytes of this file. A
+/// texture cannot be drawn if `images` returns `None` or the bytes are not a PNG or JPEG file. Then the surface is
+/// drawn without this texture, and a message gives the path and the reason.
 ///
 /// Of each material, the drawing uses the base color and alpha with their texture, the roughness, the emission,
 /// `unlit`, and `double_sided`.
 ///
 /// # Errors
 ///
-/// Returns [`PictureError::Style`] if a number of the style is out of its range, an overlay does not match its object,
-/// a mesh has too many elements for labels, or Bezier patches cannot be tessellated.
+/// Returns [`PictureError::Style`] if a number of the style is out of its range or an overlay does not match its
+/// object. Returns the same error if a mesh has too many elements for labels, or Bezier patches cannot be tessellated.
 pub fn build<'s>(
     scene: &'s Scene,
     style: &Style,
@@ -198,7 +198,7 @@ pub fn build_within<'s>(
     Ok((builder.drawing, builder.missing))
 }
 
-/// Returns a lower bound of the number of bytes that the drawing of the meshes of a scene takes.
+/// Returns the minimum number of bytes that the drawing of a scene takes. Only meshes are counted.
 fn min_bytes(scene: &Scene, style: &Style) -> u64 {
     let meshes = scene.objects().iter().filter_map(|object| object.as_mesh());
     let bytes = meshes.map(|mesh| {

@@ -117,8 +117,8 @@ mod tests {
         let mut mesh: Mesh = shapes::square();
         let uvs = mesh.half_edges().map(|h| mesh.position(mesh.origin(h)));
         let uvs: Vec<DVec2> = uvs.map(DVec3::truncate).collect();
-        // If the material uses the second set of texture coordinates, all coordinates in the first set are 0, so that
-        // the test fails if the wrong set is used.
+        // If the material uses the second set of texture coordinates, all coordinates in the first set are 0. Then a
+        // picture from the wrong set differs from the expected picture.
         if material
             .base_color_texture
             .as_ref()

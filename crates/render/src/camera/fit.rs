@@ -118,8 +118,8 @@ impl Fit {
         let (half, slant) = (self.half, self.slant());
         let (mut borders, mut front) = ([f64::NEG_INFINITY; 4], f64::NEG_INFINITY);
         if self.steady {
-            // Returns the maximum of x + t z over the points (x, y, z) of the bounding sphere, where t is the slope of
-            // a clipping plane.
+            // Returns the largest value of x + t z of any point (x, y, z) of the bounding sphere. Here t is the slope
+            // of a clipping plane.
             let border = |t: f64| radius * (1.0 + t * t).sqrt();
             let [a, b] = [border(slant.x), border(slant.y)];
             (borders, front) = ([a, a, b, b], radius);

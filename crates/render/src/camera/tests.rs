@@ -221,7 +221,8 @@ fn auto_is_the_axis_on_whose_plane_the_scene_stands() {
     };
     assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 3.0]), Up::Z);
     assert_eq!(axis([-1.0, 0.0, -1.0], [1.0, 3.0, 1.0]), Up::Y);
-    // If a scene is flat, or stands on both planes y = 0 and z = 0 or on neither of them, the y axis points upwards.
+    // The y axis points upwards if a scene stands on both planes y = 0 and z = 0, or on neither of them. A scene that
+    // lies flat in a plane does not stand on it.
     assert_eq!(axis([0.0; 3], [1.0; 3]), Up::Y);
     assert_eq!(axis([-1.0; 3], [1.0; 3]), Up::Y);
     assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]), Up::Y);

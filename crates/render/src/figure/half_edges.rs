@@ -35,7 +35,7 @@ const RADIUS: f64 = 11.0;
 const GAP: f64 = 9.0;
 /// The distance between an arrow and its name, in pixels.
 const NAME_GAP: f64 = 12.0;
-/// The distance from each end of an edge to the end of its arrow, as a fraction of the length of the edge.
+/// The distance from each end of an edge to the nearer end of the arrow, as a fraction of the length of the edge.
 const SHORTENING: f64 = 0.17;
 
 /// Draws the half-edges of faces in a figure that is `width` pixels wide, with the names of half-edges, vertices and

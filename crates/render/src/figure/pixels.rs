@@ -48,8 +48,7 @@ pub fn bytes_needed(width: u32, height: u32) -> u64 {
 }
 
 /// Draws a document over an image, with the top left corners of both at the same place. Parts outside of the image are
-/// cut off. The required memory is proportional to the part of the bounding box of the document that is inside of the
-/// image.
+/// cut off. The required memory is proportional to the area of the bounding box of the document inside of the image.
 pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
     let paths: Vec<PaintedPath> = svg.elements.iter().flat_map(PaintedPath::of).collect();
     let Some(area) = paths.iter().filter_map(PaintedPath::area).reduce(union) else {
@@ -197,8 +196,8 @@ fn outline(shape: &Shape) -> Option<Path> {
                 return None;
             }
             let [x, y, r] = [center.x, center.y, *radius].map(narrow);
-            // A cubic curve approximates a quarter of a circle if the distance from each of its ends to the next
-            // control point is 4 / 3 * tan(pi / 8) times the radius.
+            // Each quarter of the circle is approximated by a cubic curve. The distance from each end of the curve to
+            // the next control point is 4 / 3 * tan(pi / 8) times the radius.
             let k = r * 0.552_284_8;
             path.move_to(x + r, y);
             path.cubic_to(x + r, y + k, x + k, y + r, x, y + r);

@@ -88,8 +88,8 @@ pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) 
     (lists + n_tasks * temporary) as u64
 }
 
-/// Returns the maximum number of bytes that the pieces of clipped triangles and their lists take, including the
-/// temporary memory of sorting.
+/// Returns the maximum number of bytes for the pieces of clipped triangles and for their lists, including the temporary
+/// memory of sorting.
 pub(super) fn clipped_bytes(drawing: &Drawing, view: &View) -> u64 {
     let n_pieces: u64 = drawing.parts.iter().map(|part| n_pieces(part, view)).sum();
     // While a vector grows, its old and its new memory together take up to three times the memory of its elements.
@@ -276,8 +276,8 @@ fn tiles_of_triangle(projected: &ProjectedTriangle, frame: &Frame) -> Option<Til
     let range = |axis: usize, end: u32| {
         let [a, b, c] = projected.map(|corner| corner.at[axis]);
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-        // Each pixel is divided into 16 rows and 16 columns. Each sample is in the middle of one of the rows and in the
-        // middle of one of the columns.
+        // Each pixel is divided into 16 rows and 16 columns. Each sample is in the middle of a row and in the middle of
+        // a column.
         let step = GRID / 16;
         let first = (min + step / 2 - 1).div_euclid(step);
         let last = (max - step / 2).div_euclid(step);

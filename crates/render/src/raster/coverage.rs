@@ -30,8 +30,7 @@ pub(super) struct Textured<'a> {
     alpha: f32,
     /// The sample that is covered first if alpha is small; see [`rank`].
     rotation: usize,
-    /// The pixel that was tested last, and the differences between the texture coordinates of neighboring samples in
-    /// that pixel.
+    /// The last tested pixel, and the differences between the texture coordinates of neighboring samples in this pixel.
     last_pixel: Option<([u32; 2], [DVec2; 2])>,
 }
 

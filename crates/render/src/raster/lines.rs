@@ -25,7 +25,7 @@ const RING: f64 = 0.35;
 const MIN_RING: f64 = 1.2;
 
 /// The maximum width of a line, as a fraction of its spacing. At this maximum, the edges of equilateral triangles cover
-/// about half of the surface: edges of length 1 and width w cover the fraction 2 √3 w.
+/// about half of the surface. The covered fraction is 2 √3 w if edges have length 1 and width w.
 const MAX_RELATIVE_WIDTH: f64 = 0.15;
 
 /// A line, projected to the picture.

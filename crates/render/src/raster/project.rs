@@ -1,9 +1,9 @@
 //! Projects points to a grid of 1/256 pixel, and clips triangles that reach behind the camera or far outside of the
 //! picture.
 //!
-//! After the projection, computations with the edges of triangles are exact. Two triangles with a common edge have the
-//! same two grid points as ends of the edge. Therefore each sample on a common edge is in exactly one of the two
-//! triangles, if the triangles are on different sides of the edge.
+//! After the projection, computations with the edges of triangles are exact. If two triangles have a common edge, the
+//! ends of the edge are the same two grid points in both triangles. Therefore each sample on a common edge is in
+//! exactly one of the two triangles, if the triangles are on different sides of the edge.
 
 use glam::DVec3;
 

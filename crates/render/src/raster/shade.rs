@@ -231,8 +231,8 @@ impl<'a> Shader<'a> {
         let Some(occlusion) = &self.occlusion else {
             return 1.0;
         };
-        // If the last point in this pixel is near and has a similar normal, its openness is reused, because the
-        // openness of this point is nearly the same.
+        // If the previous point in this pixel is near and has a similar normal, both points have nearly the same
+        // openness. Then the openness of the previous point is reused.
         let near = last.filter(|k| {
             let pixel = self
                 .view

@@ -530,8 +530,9 @@ fn triangles_are_clipped_behind_the_camera() {
 
 #[test]
 fn the_openness_at_the_bottom_of_a_cup_is_that_of_its_opening() {
-    // The scene is an open cylinder of radius 1 with a bottom. Seen from the middle of the bottom, an opening of radius
-    // r at the distance h fills the fraction r² / (r² + h²) of the cosine-weighted hemisphere.
+    // The scene is an open cylinder of radius 1 with a bottom. The opening has the radius r and the distance h from the
+    // bottom. Seen from the middle of the bottom, it fills the fraction r² / (r² + h²) of the cosine-weighted
+    // hemisphere.
     let n_sides = 64;
     for height in [0.5, 1.0, 2.0] {
         let mut points = vec![DVec3::ZERO];

@@ -49,8 +49,8 @@ pub(super) struct Tile {
     pub(super) depth: Vec<[f32; SAMPLES]>,
     /// For each pixel, the visible triangle at each of its samples.
     pub(super) triangles: Vec<[u32; SAMPLES]>,
-    /// For each sample of each pixel, the line that covers it: 2 i + 2 for a visible line i, 2 i + 3 for a hidden line
-    /// i, and 0 if no line covers the sample.
+    /// For each pixel, a number at each of its samples. The number is 0 if no line covers the sample, 2 i + 2 if the
+    /// line with index i covers it and is visible, and 2 i + 3 if the line is hidden.
     pub(super) lines: Vec<[u32; SAMPLES]>,
     /// The planes of triangles that were used last.
     pub(super) planes: Planes,

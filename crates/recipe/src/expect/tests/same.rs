@@ -180,8 +180,7 @@ fn a_cube_has_24_rotations_and_48_motions() {
 
 #[test]
 fn a_tetrahedron_has_half_of_the_symmetries_of_a_cube() {
-    // The vertices of the tetrahedron are four of the eight vertices of a cube, so half of the motions of the cube map
-    // the tetrahedron onto itself.
+    // The tetrahedron has four of the eight vertices of a cube, so half of the motions of the cube map it onto itself.
     let tetrahedron = scene([("a", shapes::tetrahedron())]);
     holds_and_fails(
         &tetrahedron,

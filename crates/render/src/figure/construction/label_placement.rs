@@ -78,8 +78,8 @@ impl LabelPlacement {
     }
 }
 
-/// Returns the length of the part of a segment that is inside of the box around `middle` (Liang and Barsky, "A new
-/// concept and method for line clipping", 1984).
+/// Returns the length of a segment after clipping it to the box around `middle` (Liang and Barsky, "A new concept and
+/// method for line clipping", 1984).
 fn length_inside([a, b]: [DVec2; 2], middle: DVec2, half: DVec2) -> f64 {
     let (start, edge) = (a - middle, b - a);
     let (mut from, mut to) = (0.0_f64, 1.0_f64);

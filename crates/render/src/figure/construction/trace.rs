@@ -13,11 +13,11 @@ const MAX_HALVINGS: u32 = 10;
 
 /// Returns the path of a curve whose control points are in pixels.
 ///
-/// For a curve c of degree 3 or less, the path is the curve itself. Otherwise, the path consists of cubic pieces. At
-/// its two ends, each piece has the same points and tangents as the curve. The piece from the parameter t to t + h has
-/// the inner control points c(t) + c'(t) h / 3 and c(t + h) - c'(t + h) h / 3 (Hermite interpolation; Farin, "Curves
-/// and Surfaces for CAGD", 5th edition, 2002, §7.5). A parameter interval is halved until its piece is near the curve
-/// at one quarter, one half and three quarters of the interval.
+/// For a curve c of degree 3 or less, the path is the curve itself. Otherwise, the path consists of cubic pieces. Each
+/// piece starts and ends at points of the curve and has the tangents of the curve there. The piece from the parameter t
+/// to t + h has the inner control points c(t) + c'(t) h / 3 and c(t + h) - c'(t + h) h / 3 (Hermite interpolation;
+/// Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §7.5). A parameter interval is halved until its piece is
+/// near the curve at one quarter, one half and three quarters of the interval.
 pub(super) fn trace(curve: &Curve<DVec2>) -> Vec<Command> {
     let points = curve.points();
     let mut path = vec![('M', points[..1].to_vec())];

@@ -43,9 +43,9 @@ pub fn fields_in(root: &Json, part: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::new(root, part), true)
 }
 
-/// Returns the fields of a schema. If `with_variants` is set, the description of each field whose type is an
-/// enumeration contains the variants of the type. The fields of these variants are described without variants. Without
-/// this limit, the description would never end, because a selection can contain other selections.
+/// Returns the fields of a schema. If `with_variants` is set and the type of a field is an enumeration, the description
+/// of the field contains the variants. The fields of these variants are described without variants. Without this limit,
+/// the description would never end, because a selection can contain other selections.
 fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     let required: Vec<&str> = schema.required().collect();
     let described = |name: &str| {

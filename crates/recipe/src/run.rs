@@ -4,8 +4,8 @@
 //! their files to a temporary folder. The files are moved to the output folder only after all steps have run and all
 //! expectations hold.
 //!
-//! If a [cache](StepCache) is used, a step runs only if the cache does not have the result of the step, or does not
-//! have the scene after the step although the scene is needed. A scene is needed if the next step must run, or if an
+//! If a [cache](StepCache) is used, a step runs in two cases. Either the cache does not have the result of the step, or
+//! the scene after the step is needed and is not in the cache. A scene is needed if the next step must run, or if an
 //! expectation must be checked against the scene. The listener and the cache can also request a scene.
 
 mod cache;

@@ -118,8 +118,8 @@ impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
                     None => false,
                 };
                 is_smaller |= is_done;
-                // A removal compacts the mesh, which gives the ids of the removed faces to the faces after them.
-                // Therefore, the block after a removed block starts at the same id.
+                // A removal compacts the mesh: the faces after the removed faces get their ids. Therefore, the block
+                // after a removed block starts at the same id.
                 first = if is_done { first } else { last };
             }
             // Single faces are tried again, because a face can become removable after other faces were removed.

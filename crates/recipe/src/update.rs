@@ -1,5 +1,5 @@
-//! Updates the recorded values of a recipe. In the text of the recipe, the recorded value of each expectation that
-//! does not hold is replaced by the actual value. The rest of the text stays unchanged.
+//! Updates the recorded values of a recipe. If an expectation does not hold, its recorded value in the text of the
+//! recipe is replaced by the actual value. The rest of the text stays unchanged.
 //!
 //! Recorded values are `eq`, `is`, the digest in `Digest`, the two corners in `Bounds`, and the reference file of
 //! `Output`. Requirements are never changed: one-sided bounds such as `min` and `below`, and conditions such as
@@ -99,9 +99,9 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
-/// Finds the expectations in the text that do not hold after at least one repetition of their step. For each of these
-/// expectations, returns a list with one entry for each repetition. The entry is the failure of the expectation in this
-/// repetition, or `None` if the expectation holds.
+/// Finds the expectations that do not hold after at least one repetition of their step. For each of these expectations,
+/// returns a list with one entry for each repetition. The entry is the failure of the expectation in this repetition,
+/// or `None` if the expectation holds.
 fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,

@@ -7,8 +7,8 @@ use crate::Image;
 /// A palette of at most 256 colors for several images.
 ///
 /// All transparent pixels count as one color. If the images have at most 256 colors, the palette has exactly these
-/// colors. Otherwise, the colors are quantized (Dekker, "Kohonen neural networks for optimal colour
-/// quantization", 1994). In this case, only the color that is most frequent in a sample of the pixels is always exact.
+/// colors. Otherwise, the colors are quantized (Dekker, "Kohonen neural networks for optimal colour quantization",
+/// 1994). In this case, only one color is always exact: the most frequent color in a sample of the pixels.
 #[derive(Clone, Debug)]
 pub struct Palette {
     colors: Vec<[u8; 3]>,

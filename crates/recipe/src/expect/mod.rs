@@ -306,7 +306,7 @@ pub enum Expectation {
         min: Option<u64>,
         /// At most this number of motions.
         max: Option<u64>,
-        /// The allowed distance between a vertex after the motion and the vertex onto which the motion maps it.
+        /// The allowed distance between a moved vertex and the vertex that it must match.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
@@ -351,8 +351,8 @@ pub enum Expectation {
     Attribute {
         /// The name of the attribute.
         name: String,
-        /// Which elements. If omitted, all vertices, faces, corners or edges: the first of these kinds that has an
-        /// attribute of this name.
+        /// Which elements. If omitted, all elements of one kind. If several kinds have an attribute of this name, the
+        /// first of vertices, faces, corners and edges is used.
         of: Option<Elements>,
         /// The index of the component of a vector, starting at 0. Required for vectors.
         #[schemars(range(max = 3))]

@@ -12,7 +12,7 @@ use mesh::DVec3;
 pub struct Violation {
     /// The expected and the actual value, or the reason why the evaluation failed, in one line.
     pub message: String,
-    /// The actual value, if the expectation would hold with this value as the expected value.
+    /// The actual value, if it can replace the expected value, so that the expectation holds.
     pub found: Option<ActualValue>,
     /// Whether the expectation could not be checked, for example because a file cannot be read. In this case, `Not(..)`
     /// of the expectation does not hold either.
@@ -198,8 +198,8 @@ pub(super) fn rounded(found: f64, limit: f64) -> String {
     }
 }
 
-/// Returns the violation of the first of the bounds `eq`, `min` and `max` that does not hold. The violation contains
-/// the actual value only if `eq` does not hold but `min` and `max` do. If `min` or `max` does not hold, the expectation
+/// Checks the bounds `eq`, `min` and `max` in this order, and returns the first violation. The violation contains the
+/// actual value only if `eq` does not hold but `min` and `max` do. If `min` or `max` does not hold, the expectation
 /// would still fail with the actual value as `eq`.
 fn check_bounds<T: PartialOrd + Copy>(
     found: T,

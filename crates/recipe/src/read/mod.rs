@@ -170,7 +170,7 @@ fn take_items(list: Option<&mut Value>) -> Vec<Value> {
     }
 }
 
-/// Reads one text in one scope, which is one set of parameter values.
+/// Reads one text in one scope, that is, with one set of parameter values.
 struct Reader<'s, 'a> {
     shared: &'s mut Shared<'a>,
     source: Source,

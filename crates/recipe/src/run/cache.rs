@@ -155,7 +155,7 @@ pub enum RerunReason {
         "the step's output files record the recipe and its parameters, and one of these changed"
     )]
     Provenance,
-    /// The names of the output files that the step writes changed.
+    /// The step now writes output files with different names.
     #[error("the names of the step's output files changed")]
     Outputs,
     /// An earlier step ran again. The values are its number, counted from 1, and its label.

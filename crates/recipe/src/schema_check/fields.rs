@@ -66,7 +66,7 @@ impl Checker {
     }
 
     /// Reports an unknown field. The unknown field is probably a missing field with a wrong name. If so, this function
-    /// removes the missing field from `missing`, so that it is not reported, too.
+    /// removes the missing field from `missing`, so that only the unknown field is reported.
     fn unknown_field(
         &mut self,
         value: &Value,

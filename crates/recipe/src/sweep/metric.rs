@@ -46,8 +46,8 @@ pub enum Metric {
     },
     /// A statistic of the values of an attribute, for example of an attribute that `Measure` stored.
     Attribute {
-        /// The name of the attribute. If several kinds of elements have an attribute of this name, the first kind in
-        /// the order vertices, faces, corners, edges is used.
+        /// The name of the attribute. If several kinds of elements have an attribute of this name, the first of
+        /// vertices, faces, corners and edges is used.
         name: String,
         /// The statistic.
         statistic: Statistic,

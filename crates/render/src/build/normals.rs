@@ -22,8 +22,8 @@ pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
     })
 }
 
-/// Returns the sum of the area vectors of the faces around each vertex, by index. Gouraud, "Continuous Shading of
-/// Curved Surfaces", 1971, with weights by area.
+/// Returns the sum of the area vectors of the faces around each vertex, by index. The method is from Gouraud,
+/// "Continuous Shading of Curved Surfaces", 1971, but weights faces by area.
 fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
     map_indices(mesh.positions().len(), |i| {
         let v = VertexId::new(i);
@@ -94,7 +94,8 @@ fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) 
         return [0.0; 3];
     };
     let mut sum = areas[face.index()];
-    // Walks counter-clockwise around the vertex, each time across the half-edge of the face that ends at the vertex.
+    // Walks counter-clockwise around the vertex. In each face, one half-edge ends at the vertex. Its twin is in the
+    // next face.
     let mut g = h;
     loop {
         let before = mesh.prev(g);
@@ -108,7 +109,8 @@ fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) 
             None => break,
         }
     }
-    // Walks clockwise around the vertex, each time across the half-edge of the face that starts at the vertex.
+    // Walks clockwise around the vertex. In each face, one half-edge starts at the vertex. Its twin is in the next
+    // face.
     g = h;
     while !is_sharp[g.edge().index()] {
         let Some(f) = mesh.face(g.twin()) else {

@@ -167,8 +167,8 @@ fn clusters(text: &Text) -> Vec<Cluster> {
     clusters
 }
 
-/// Whether a character is invisible and has no width, for characters that are missing in all fonts. Such a character
-/// joins or separates other characters, or sets their direction or variant.
+/// Whether a character is invisible and has no width, for characters that are missing in all fonts. These characters
+/// join or separate other characters, or set their direction or variant.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')

@@ -197,7 +197,7 @@ impl Text {
 /// degree 2 and 3, and `Z` closes the subpath.
 pub type Command = (char, Vec<DVec2>);
 
-/// An element of a document. All numbers are already rounded to three decimals, as they are written.
+/// An element of a document. All numbers are already rounded to the three decimals that are written.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Element {
     Shape(Shape, Paint),

@@ -47,8 +47,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the maximum number of tiles for an item in the lists of single tiles. An item that touches more tiles is in
-/// the list that all tiles read, so that the size of the lists is bounded.
+/// Returns how many tiles an item in the lists of single tiles can touch. To bound the size of these lists, an item
+/// that touches more tiles is put in the list that all tiles read.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {

@@ -2,9 +2,9 @@
 //!
 //! A pixel has 16 samples. Each of its 16 rows and each of its 16 columns contains exactly one sample (n-rooks:
 //! Shirley, "Discrepancy as a Quality Measure for Sample Distributions", 1991). The arrangement of samples in `ROWS`
-//! was found by a search. For many edges that cut a pixel in all directions, the search compared the fraction of
-//! covered samples with the exact covered fraction of the pixel. Of all tested arrangements, this one has the smallest
-//! difference between the two fractions.
+//! was found by a search. The search used many edges, in all directions, that cut a pixel. For each edge, it compared
+//! the fraction of covered samples with the exact covered fraction of the pixel. Of all tested arrangements, this one
+//! has the smallest difference between the two fractions.
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
@@ -49,8 +49,8 @@ pub(super) struct Tile {
     pub(super) depth: Vec<[f32; SAMPLES]>,
     /// For each pixel, the visible triangle at each of its samples.
     pub(super) triangles: Vec<[u32; SAMPLES]>,
-    /// For each pixel, a number at each of its samples. The number is 0 if no line covers the sample, 2 i + 2 if the
-    /// line with index i covers it and is visible, and 2 i + 3 if the line is hidden.
+    /// For each pixel, a number at each of its samples. The number is 0 if no line covers the sample. If the line with
+    /// index i covers the sample, the number is 2 i + 2 for a visible line, and 2 i + 3 for a hidden line.
     pub(super) lines: Vec<[u32; SAMPLES]>,
     /// The planes of triangles that were used last.
     pub(super) planes: Planes,

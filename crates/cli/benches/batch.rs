@@ -1,5 +1,5 @@
-//! Measures how well a batch of 200 small files uses the processors, and which share of the time the runs of the recipe
-//! take.
+//! Measures two things for a batch of 200 small files: how busy the processors are, and how much of their time the runs
+//! of the recipe take.
 //!
 //! The input files are wavy grids of 1,600 quadrilaterals (about 100 kB of OBJ). The recipe triangulates each grid,
 //! subdivides it once, computes normals and writes it as GLB. The batch runs five times with one thread, and five times
@@ -7,8 +7,9 @@
 //!
 //! - the wall time of the whole program,
 //! - busy: the user and system time, divided by the product of the wall time and the number of threads,
-//! - in jobs: the total time of all runs, divided by the product of the wall time and the number of threads. The total
-//!   does not include the time for reading and checking the recipe, for digests, the journal and the report.
+//! - in jobs: the total time of all runs, divided by the product of the wall time and the number of threads. This total
+//!   does not include the time to read and check the recipe, to compute digests, and to write the journal and the
+//!   report.
 //!
 //! ```text
 //! cargo bench -p meshwright-cli --bench batch
@@ -61,8 +62,7 @@ fn grid(seed: u32) -> String {
     text
 }
 
-/// Returns three times in seconds: the wall time of the batch, its processor time, and the sum of the times of its
-/// runs.
+/// Returns three durations in seconds: the wall time of the batch, its processor time, and the total time of its runs.
 fn measured(folder: &Path, threads: usize) -> [f64; 3] {
     let out = folder.join("out");
     let _ = std::fs::remove_dir_all(&out);

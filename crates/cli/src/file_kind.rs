@@ -105,7 +105,7 @@ impl FileKind {
         }
     }
 
-    /// Returns the part of an error message that names the commands for a file of this kind.
+    /// Returns a hint for an error message: the commands that accept a file of this kind.
     fn help(self, name: &str) -> String {
         match self {
             Self::Recipe => format!("use `meshwright run {name}` or `meshwright check {name}`"),

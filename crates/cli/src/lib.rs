@@ -55,8 +55,8 @@ pub fn run(registry: Registry) -> ExitCode {
 
 /// Returns the recipes that `meshwright test PATHS` runs, where `paths` are the paths of recipes and folders. The
 /// result includes recipes that cannot be read. A recipe is left out if it has neither expectations nor a step with the
-/// field `refused`. A recipe in one of the folders is also left out if another of the recipes calls it and its own path
-/// is not in `paths`.
+/// field `refused`. A recipe that another of these recipes calls is also left out, unless `paths` contains its own
+/// path.
 ///
 /// # Errors
 ///
@@ -104,8 +104,8 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
         Command::Picture(args) => commands::picture::run(&args, &engine),
         Command::Select(args) => commands::select::run(&args, &engine),
         Command::Diff(args) => {
-            // As in Unix `diff`, the exit code 1 of the command `diff` means that the files differ, so errors need
-            // another code.
+            // The exit code 1 of `diff` means that the files differ, as for the Unix program `diff`. Errors therefore
+            // need another code.
             code_of_errors.set(2);
             commands::diff::run(&args, &engine)
         }
@@ -122,8 +122,8 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
         Command::NewOp(args) => commands::new_op::run(&args, registry),
     };
     let result = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
-        // If an array does not fit into memory, the code panics with `OutOfMemory`. This panic is reported as an error,
-        // not as a bug in the program.
+        // If an array does not fit into memory, the code panics with `OutOfMemory`. The program reports this panic as
+        // an ordinary error, not as a bug.
         match payload.downcast::<mesh::OutOfMemory>() {
             Ok(missing) => Err(anyhow::Error::new(*missing)),
             Err(payload) => resume_unwind(payload),

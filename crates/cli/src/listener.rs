@@ -8,8 +8,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. A run that shows no progress
-/// uses this flag as its listener. For example, several simultaneous runs show no progress.
+/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. Runs that show no progress,
+/// such as runs of a batch, use this flag as their listener.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
 /// Installs the handler of Ctrl-C: the first Ctrl-C cancels the run cleanly, and the second Ctrl-C ends the program

@@ -4,8 +4,8 @@ use recipe::{Diagnostic, InOrder, JobEnd, JobLimits, Jobs, Severity};
 
 use crate::listener::is_interrupted;
 
-/// The maximum number of runs whose recipes are checked before the first of these runs starts. The number is limited
-/// because all checked recipes stay in memory.
+/// The maximum number of runs that are checked together before the first of them starts. The number is limited because
+/// the checked recipes of all these runs stay in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
 
 /// The result of a job. If the job failed or panicked, the error contains the message. If the job was canceled or not
@@ -50,7 +50,7 @@ pub(crate) fn run_all<T: Send>(
     Ok(results)
 }
 
-/// Converts the way in which a job ended to a result.
+/// Converts the end of a job to a result.
 pub(crate) fn job_result<T>(end: JobEnd<T>) -> JobResult<T> {
     match end {
         JobEnd::Done(result) => Ok(result),

@@ -157,7 +157,7 @@ fn terminal_width() -> Option<usize> {
 /// column is shortened. Numbers are never shortened. If the numbers still do not fit, each row of the table continues
 /// on further lines, which are indented.
 fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) -> String {
-    /// A name is not shortened to fewer characters than this.
+    /// The minimum length of a shortened name, in characters.
     const MIN: usize = 8;
     const INDENT: usize = 4;
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);

@@ -114,8 +114,8 @@ pub(crate) struct BatchArgs {
     /// Also write the results as JUnit XML, with a test case for each input file
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
-    /// Divide the input files into N parts, and process only part I. To which part a file belongs depends only on the
-    /// path of the file and, with --sets, on the number of the parameter set
+    /// Divide the input files into N parts, and process only part I. The part of a file is determined only by the path
+    /// of the file and, with --sets, by the number of the parameter set
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
     /// Estimate the memory that each of N parts of the batch needs, and run nothing
@@ -126,7 +126,7 @@ pub(crate) struct BatchArgs {
         value_parser = clap::value_parser!(u32).range(1..=1_000_000),
     )]
     pub(crate) estimate: Option<u32>,
-    /// Also process files again that failed in an earlier run and have not changed since
+    /// Also retry files that failed in an earlier run, even if nothing has changed since that run
     #[arg(long)]
     pub(crate) retry_failed: bool,
     /// Merge the reports (.json or .jsonl) of several parts into the file that --report names, and run nothing

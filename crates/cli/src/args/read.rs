@@ -51,7 +51,8 @@ impl ReadArgs {
     }
 }
 
-/// Parses a policy from its name in recipes, in lower or upper case. The names are single words.
+/// Parses the name of a policy, which is the same as in recipes, but can be in lower or upper case. Each name is a
+/// single word.
 pub(super) fn policy<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     let mut name = text.to_ascii_lowercase();
     if let Some(first) = name.get_mut(..1) {

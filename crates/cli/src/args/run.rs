@@ -41,8 +41,8 @@ pub(crate) struct RunArgs {
     /// Do not check the recipe's expectations
     #[arg(long)]
     pub(crate) no_expect: bool,
-    /// Print where each parameter value comes from, the fields `note` of the steps and, for each step that runs, why
-    /// its result is not taken from the cache
+    /// Print where each parameter value comes from, the `note` of each step, and why each step that runs cannot take
+    /// its result from the cache
     #[arg(long)]
     pub(crate) explain: bool,
     #[command(flatten)]
@@ -55,7 +55,7 @@ pub(crate) struct RunArgs {
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub(crate) recipe: RecipeArgs,
-    /// Print where each parameter value comes from, and the fields `note` of the steps
+    /// Print where each parameter value comes from, and the `note` of each step
     #[arg(long)]
     pub(crate) explain: bool,
 }

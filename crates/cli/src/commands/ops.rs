@@ -189,8 +189,8 @@ fn described(schema: &Json, summary: &str) -> String {
     text
 }
 
-/// Whether a sentence such as "Creates a cube." has the words of a summary such as "Create a cube". The verbs of the
-/// sentence and of the summary can have different forms, as "Creates" and "Create".
+/// Whether a sentence such as "Creates a cube." only repeats a summary such as "Create a cube". The words must be the
+/// same, apart from verb endings such as the "s" of "Creates".
 fn repeats(sentence: &str, summary: &str) -> bool {
     let sentence: Vec<&str> = sentence.trim_end_matches('.').split_whitespace().collect();
     let summary: Vec<&str> = summary.split_whitespace().collect();

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool>
         expect_kind(file, FileKind::Mesh)?;
         let stamp = mesh_io::provenance(&Disk, file)?.and_then(|text| Stamp::parse(&text));
         let (source, run) = recipe_of(file, stamp.as_ref(), args, engine)?;
-        // If the same run wrote several consecutive files, the run is repeated only once for all of them.
+        // If the same run wrote several files that are adjacent in the arguments, this run is repeated only once.
         let rerun = match last.take() {
             Some(rerun) if rerun.is_of(&source, &run) => rerun,
             _ => Rerun::run(source, run, args.budget, engine)?,
@@ -160,7 +160,8 @@ impl Rerun {
         self.source == *source && self.run == *run
     }
 
-    /// Returns whether the run has written a file with the same bytes as `file`, and prints a message that says so.
+    /// Returns whether the run has written a file with the same bytes as `file`, and prints the result of the
+    /// comparison.
     fn compare(&self, file: &Path, stamp: Option<&Stamp>) -> anyhow::Result<bool> {
         let (shown, recipe) = (file.display(), &self.loaded.path);
         let bytes = fs::read(file).with_context(|| format!("cannot read {shown}"))?;

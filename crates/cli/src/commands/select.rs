@@ -86,7 +86,7 @@ fn meshes<'s>(
     args.on.iter().map(named).collect()
 }
 
-/// Returns how many vertices, edges or faces a mesh has in total, depending on the kind of the selected elements.
+/// Returns the number of all elements of the mesh that have the same kind as the selected elements.
 fn total(mesh: &Mesh, chosen: &Selected) -> usize {
     match chosen {
         Selected::Vertices(_) => mesh.n_vertices(),

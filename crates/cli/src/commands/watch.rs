@@ -51,8 +51,8 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
         match load_to_run(args, engine) {
             Ok(loaded) => {
                 for folder in folders(&loaded) {
-                    // The error is ignored: if a folder does not exist, the check of the recipe has already reported
-                    // the missing file.
+                    // The error is ignored, because the check of the recipe has already reported files in folders that
+                    // do not exist.
                     let _ = changes.follow(&folder);
                 }
                 changes.ignore(&loaded.forecast.outputs);
@@ -214,7 +214,7 @@ impl FolderWatcher {
         lock(&self.pending).take()
     }
 
-    /// Returns the first changed file of the event that the recipe reads and does not write, if any.
+    /// Searches the files that the event lists, and returns the first one that the recipe reads and does not write.
     fn changed_file(&self, event: notify::Result<notify::Event>) -> Option<PathBuf> {
         let event = event.ok()?;
         if event.kind.is_access() {
@@ -231,7 +231,7 @@ impl FolderWatcher {
     }
 }
 
-/// Whether a name has the form in which this program names its temporary files and folders.
+/// Whether a name is the name of a temporary file or folder of this program.
 fn is_temporary(name: &str) -> bool {
     name.starts_with(".meshwright-")
 }

@@ -1,4 +1,5 @@
-//! `check` refuses what a run must refuse, and lists the losses that are known before the files are read completely.
+//! `check` reports errors that would make a run fail. It also lists the losses that are known before the files are read
+//! completely.
 
 use crate::folder::Folder;
 

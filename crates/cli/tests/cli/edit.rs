@@ -5,9 +5,9 @@ use std::process::{Command, Output};
 
 use crate::folder::{Folder, PROGRAM};
 
-/// Runs shell commands in a folder. The commands create executable files. If this process wrote the files itself, a
-/// process that another test starts at the same time would inherit the open file, and a file that is open for writing
-/// cannot be executed.
+/// Runs shell commands in a folder. The commands create executable files. If this process wrote the files itself,
+/// another test could start a process at the same time. That process would inherit the open file, and a file that is
+/// open for writing cannot be executed.
 fn shell(folder: &Folder, commands: &str, argument: &str) {
     let mut command = Command::new("sh");
     command.args(["-ec", commands, "sh", argument]);

@@ -1,4 +1,4 @@
-//! `new`: the recipes that it writes run without changes.
+//! `new` writes recipes that can be run as they are.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! `new-op`: the files that it writes build, pass their tests and draw their pictures.
+//! `new-op` writes operations that can be built, tested and drawn as they are.
 
 use std::fs;
 use std::path::{Path, PathBuf};

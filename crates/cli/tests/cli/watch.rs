@@ -114,7 +114,7 @@ fn only_files_that_the_recipe_reads_start_a_run() {
     for is_cached in [false, true] {
         let watching = Watching::start(&folder, &arguments);
         watching.wait_for("watching one folder");
-        // No run starts when an output changes, or a file that the recipe does not read.
+        // A change of an output, or of a file that the recipe does not read, starts no run.
         std::fs::write(folder.path("notes.txt"), "1").unwrap();
         std::fs::write(folder.path("b.obj"), TRIANGLE).unwrap();
         std::fs::write(folder.path("b.mtl"), "newmtl blue\n").unwrap();

@@ -73,15 +73,15 @@ pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
 }
 
 /// Returns the estimated memory of a run: the peak memory of the forecast, plus the memory of a copy of the meshes. The
-/// copy is included because a step holds the meshes before the step and the meshes after it at the same time. For each
-/// pair of consecutive steps, the copy is as large as the smaller one of the two forecasts for these steps. The memory
-/// of the largest copy is added to the peak memory. Neither the peak memory nor the memory of the copy can exceed the
+/// copy is included because a step holds the meshes before the step and the meshes after it at the same time. For a
+/// pair of consecutive steps, the memory of the copy is the smaller of the forecasts for the two steps. The largest
+/// copy of all pairs is added to the peak memory. Neither the peak memory nor the memory of the copy can exceed the
 /// memory budget, because meshes cannot exceed the budget.
 fn memory(forecast: &Forecast, budget: u64) -> u64 {
     let steps = forecast.steps.windows(2);
     let smaller = steps.map(|pair| pair[0].bytes.max.min(pair[1].bytes.max));
-    // If two consecutive steps have no upper limit for their memory, the pair is skipped. In this case, `peak_bytes`
-    // already includes an edited copy of the meshes.
+    // If the memory of both steps of a pair has no upper limit, the pair is skipped. In this case, `peak_bytes` already
+    // includes an edited copy of the meshes.
     let copy = smaller.filter(|&bytes| bytes < u64::MAX).max();
     forecast.peak_bytes().min(budget) + copy.unwrap_or(0).min(budget)
 }

@@ -210,7 +210,7 @@ impl Plan {
     }
 }
 
-/// Checks that each mesh file exists with which an entry of `keep`, such as `DistanceTo`, compares the scenes.
+/// Some entries of `keep`, such as `DistanceTo`, compare the scenes with a mesh file. Checks that these files exist.
 fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
     for (metric, span) in &sweep.keep {
         if let Some(OtherMesh::File(path)) = Metric::other(metric) {

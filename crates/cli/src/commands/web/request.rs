@@ -32,7 +32,7 @@ pub(super) enum Refusal {
     /// The request is not valid, or too long.
     BadRequest,
     /// The request names a host other than this computer. Without this check, a page from another host could read the
-    /// files. The owner of that host can let its name point to this computer (DNS rebinding).
+    /// files. The owner of that host can make its name point to this computer (DNS rebinding).
     Host,
     /// The folder does not contain the file.
     NotFound,

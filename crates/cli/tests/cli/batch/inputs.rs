@@ -1,4 +1,4 @@
-//! Which files a batch processes, and which it refuses.
+//! The files that a batch processes, and the files that it refuses.
 
 use super::*;
 

@@ -23,7 +23,7 @@ pub(crate) enum FileKind {
 const MAX_SWEEP: u64 = 1 << 20;
 
 /// Checks the kind of a file by its extension. Recipes and sweeps share an extension, so they are distinguished by
-/// their contents. If a recipe or a sweep is expected, a file with an unknown extension must begin like a recipe. If
+/// their contents. If a recipe or a sweep is expected, a file with an unknown extension must begin like a RON file. If
 /// the file does not exist or its kind cannot be determined, this check succeeds, because the command reports the error
 /// when it reads the file.
 ///

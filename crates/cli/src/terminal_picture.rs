@@ -2,8 +2,7 @@
 //! that the terminal supports is used.
 //!
 //! Environment variables tell which of these forms the terminal supports. The program does not send a query to the
-//! terminal, because it would have to wait if the terminal does not answer, and could mistake typed keys for the
-//! answer.
+//! terminal. Not every terminal answers queries, and the program could mistake typed keys for the answer.
 //!
 //! - Kitty, "Terminal graphics protocol": a PNG file in chunks, in base64.
 //! - iTerm2, "Inline images protocol": a PNG file, in base64.

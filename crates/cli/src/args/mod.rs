@@ -84,7 +84,7 @@ pub(crate) enum Command {
     /// An output file records the recipe, the parameters and the inputs that it was made from. The command searches for
     /// this recipe below the working directory.
     Reproduce(ReproduceArgs),
-    /// Reduce the scene before a failing step to a small scene for which the step still fails
+    /// Reduce the scene before a failing step to a small scene on which the step still fails
     Shrink(ShrinkArgs),
     /// Show or clear the step cache, which stores the results of steps for later runs
     Cache(CacheCommandArgs),

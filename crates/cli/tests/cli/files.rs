@@ -149,7 +149,8 @@ fn policies_for_unclean_input_are_applied_and_listed() {
     );
 }
 
-/// Four triangles, some of whose neighbors have opposite orientations, and a triangle that touches them at one vertex.
+/// Five triangles. Some neighbors have opposite orientations, and the last triangle touches the others only at one
+/// vertex.
 const UNCLEAN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 5 5 5\nv 6 5 5\n\
                        f 1 2 3\nf 2 3 4\nf 1 2 5\nf 3 1 5\nf 1 6 7\n";
 

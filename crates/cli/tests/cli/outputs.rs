@@ -25,7 +25,7 @@ fn recorded() -> Folder {
     folder
 }
 
-/// Changes a pixel of a picture of opaque colors by the amount `by`.
+/// Changes one pixel of a picture, which must be opaque.
 fn change_a_pixel(folder: &Folder, name: &str, place: usize, by: u8) {
     let file = BufReader::new(File::open(folder.path(name)).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();

@@ -43,8 +43,8 @@ pub(super) struct Sheet<'a> {
     picture: Picture,
     files: Files,
     layout: Layout,
-    /// The sum of the peak memory, in bytes, of the runs whose scenes are kept until all cells have run. This sum is an
-    /// upper limit for the memory of the scenes that are kept.
+    /// An upper limit for the memory, in bytes, of the scenes that are kept until they are drawn. For each of these
+    /// scenes, the limit includes the estimated peak memory of its run.
     kept: AtomicU64,
 }
 

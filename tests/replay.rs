@@ -7,8 +7,8 @@
 //! teapot: every step is needed    the recipe fails if any one of its steps is removed
 //! ```
 //!
-//! The test `from every step` skips recipes that need much memory. The test `every step is needed` does not remove
-//! steps that only write files, and steps that must be refused. If the environment variable `MESHWRIGHT_UPDATE` is set,
+//! The test `from every step` skips recipes that need much memory. The test `every step is needed` removes neither
+//! steps that only write files nor steps that must be refused. If the environment variable `MESHWRIGHT_UPDATE` is set,
 //! digests.txt is rewritten before the tests run.
 
 use std::collections::BTreeMap;
@@ -29,8 +29,8 @@ const BUDGET: u64 = 4 << 30;
 /// The test `from every step` skips a recipe if its predicted memory peak is above this number of bytes.
 const MAX_BYTES_FROM_EVERY_STEP: u64 = 16 << 20;
 
-/// The operations that only write files. Without a step with one of these operations, a recipe fails only if it has
-/// expectations about the files.
+/// The operations that only write files. If a step with one of these operations is removed, the recipe fails only if it
+/// has expectations about the files.
 const OUTPUTS: [&str; 5] = [
     "CurveFigure",
     "HalfEdgeFigure",
@@ -341,7 +341,8 @@ fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
     fail(format!("the recipe succeeds without these steps:\n{steps}"))
 }
 
-/// Tests that a step is reported as unneeded if only those expectations fail without it that name its id.
+/// Some steps are needed only by expectations that name the id of the step. Tests that such a step is reported as
+/// unneeded.
 fn unneeded_steps_are_found() -> Result<(), Failed> {
     let source = r#"(
         recipe: 1,

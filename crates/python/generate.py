@@ -148,7 +148,7 @@ def for_mesh(text: str) -> str:
     return "\n\n".join(paragraphs)
 
 
-#: The words with which the description of a parameter starts if the parameter names another object.
+#: The beginning of the description of a parameter that names another object.
 OBJECT = "The name of the object "
 
 
@@ -333,7 +333,7 @@ COLOR_BY = (
 RELATIVE = re.compile(r"(?:The|A relative) path is relative to (the output folder|the folder of the recipe)\.")
 
 TAGGED = [("Vertices", "vertex"), ("Edges", "edge"), ("Faces", "face")]
-#: How the result of a method of a mesh can be read.
+#: How to read the result of a method of a mesh.
 RESULTS = {
     "Measure": 'Its ``attributes["mean_curvature"]``, or the attribute of the given name, is an array of the values.',
     "Unwrap": 'Its ``attributes["uv"]`` has the coordinates of the corners, and ``corners`` has their vertices.',
@@ -392,7 +392,7 @@ def function(name: str, alternatives: list[Any]) -> list[str]:
         for i in structs:
             for n, s in i["properties"].items():
                 merged.setdefault(n, []).append(s)
-        # For other parameters, the variant of the same name has one value without a name.
+        # Other parameters can have a variant with the same name that takes one value without a name.
         plain = [i for i in inner if i not in structs]
         needed = {n for n in merged if not plain and all(n in i.get("required", []) for i in structs)}
         order = [n for n in merged if n in needed] + [n for n in merged if n not in needed]
@@ -423,10 +423,10 @@ def function(name: str, alternatives: list[Any]) -> list[str]:
     return [*lines, f"    return Choice({call})", ""]
 
 
-#: The words with which the description of a selection says that its value is the name of an object.
+#: This phrase in the description of a selection says that the selection takes the name of an object.
 BY_NAME = ", given by its name"
 OR_NAME = "For a scene or a recipe, the name of its object."
-#: The kind of elements that the selections of each type select.
+#: The elements that each type of selection can select.
 ELEMENTS = {"VertexSelection": "vertices", "EdgeSelection": "edges", "FaceSelection": "faces"}
 
 
@@ -481,7 +481,7 @@ def places_of(alternatives: list[Any]) -> str:
 
 
 def combined(schemas: list[Any]) -> Any:
-    """Merges the schemas of a parameter that several variants of the same name have."""
+    """Several variants of the same name can have the same parameter. Merges the schemas of this parameter."""
     text = described(schemas[0])
     if names_object(schemas[0]):
         text = f"{text.replace(OBJECT, 'The mesh ')} {OR_NAME}"

@@ -15,8 +15,8 @@ pub(crate) fn take(bytes: &mut &[u8]) -> u8 {
     first
 }
 
-/// Removes the bytes of a mesh and returns the mesh, which is made of at most 32 points and 39 faces. If the first byte
-/// is odd, the mesh has creases. Returns `None` if the bytes do not give a valid mesh.
+/// Builds a mesh of at most 32 points and 39 faces, and removes the bytes that determine the mesh. If the first byte is
+/// odd, the mesh has creases. Returns `None` if the bytes do not give a valid mesh.
 pub(crate) fn mesh(bytes: &mut &[u8]) -> Option<Mesh> {
     let kind = take(bytes);
     let scale = SCALES[usize::from(kind >> 5)];

@@ -53,8 +53,7 @@ proptest! {
                 } else {
                     code.kind
                 };
-                // Algorithms that change the whole surface are slow, so a sequence has at most one of them in twenty
-                // edits.
+                // Algorithms that change the whole surface are slow, so at most every twentieth edit is one of them.
                 let is_slow = kind > LAST_LOCAL && i % 20 != 0;
                 let kind = if is_slow { kind % LAST_LOCAL } else { kind };
                 let code = EditCode { kind, ..code };

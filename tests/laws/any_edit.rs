@@ -387,7 +387,7 @@ fn around(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
 }
 
 /// Returns the first half-edge without a face. The search starts at `h`, follows the order of ids, and continues at the
-/// lowest id. If the mesh has no hole, returns `h`.
+/// lowest id after the highest id. If the mesh has no hole, returns `h`.
 fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
     let n = mesh.domain_len(Domain::Corner);
     (0..n)

@@ -55,7 +55,7 @@ fn an_operation_cancelled_at_its_first_call_changes_nothing() {
         if stop.has_cancelled() && !was_cancelled {
             failures.push(format!("{}: did not stop when cancelled", case.name));
         }
-        // An operation that makes no progress calls cannot be canceled, but then it must not change the scene.
+        // An operation without progress calls cannot be canceled, so it must leave the scene unchanged.
         if (result.is_ok() || was_cancelled) && scene != case.scene {
             failures.push(format!(
                 "{}: changed the scene before its first progress call",

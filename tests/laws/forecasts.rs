@@ -25,7 +25,7 @@ const KNOWN: [&str; 5] = [
 /// `position` occurs, for example, if vertices coincide, and a loss of `mesh` if a mesh loses all faces.
 const OF_VALUES: [&str; 2] = ["position", "mesh"];
 
-/// Returns how a run disagrees with the forecast of its recipe.
+/// Describes the differences between a run and the forecast of its recipe.
 fn disagreements(loaded: &Loaded) -> Vec<String> {
     if loaded.has_errors() {
         return Vec::new();

@@ -38,9 +38,9 @@ fn no_object_in_a_schema_allows_unknown_fields() {
     let schema = recipe::schema(&ops_all::registry());
     let mut failures = Vec::new();
     walk(&schema, "", &mut |schema, path| {
-        // An operation can have a parameter with the name `properties`. The JSON object that maps the names of the
-        // parameters to their schemas then has a member `properties` without being a schema. In this case, the value of
-        // its `type` is not `object`.
+        // An operation can have a parameter with the name `properties`. The JSON object that maps the names of
+        // parameters to their schemas then has a member `properties`, but is not a schema. The member `type` of this
+        // JSON object, if any, is not the string `object`.
         let is_object = schema["type"] == "object" && schema["properties"].is_object();
         if is_object && schema["additionalProperties"] != false {
             failures.push(format!("{path}: needs deny_unknown_fields"));

@@ -183,8 +183,8 @@ impl Scene {
         Self(self.0.only(|name| names.iter().any(|n| n == name)))
     }
 
-    /// Whether `only` gives the same graph as the operation Delete with all other names. The results differ if the
-    /// scene has cameras, lights or other nodes that `only` leaves out and Delete keeps.
+    /// Whether `only` gives the same graph as a Delete step that deletes all other objects. The graphs differ if the
+    /// scene has nodes, such as cameras and lights, that `only` leaves out and Delete keeps.
     fn only_is_delete(&self, names: Vec<String>) -> bool {
         let mut deleted = self.0.clone();
         for object in self.0.objects() {

@@ -54,7 +54,7 @@ def test_values_of_recipes_are_documented_as_in_python() -> None:
 
 
 def test_the_examples_of_the_methods_are_those_of_the_operations() -> None:
-    """The example in the documentation of each method gives the step that the documentation of its operation shows."""
+    """For each method, the example in its documentation makes the same step as the example of the operation."""
     generate = generator()
     for name, entry in operations().items():
         call = generate.in_python(entry["example"])

@@ -22,7 +22,7 @@ Selections are words such as "Boundary", or values of the module `sel`. To selec
 >>> m.delete_faces(faces=sel.FacesAround(sel.Tagged("top"))).is_closed
 False
 
-The values of other parameters with several variants are words, or values of the module `choice`:
+Other parameters with several variants take a word, or a value of the module `choice`:
 
 >>> m = m.smooth(by=choice.Taubin(), passes=5)
 

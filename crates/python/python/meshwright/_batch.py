@@ -19,8 +19,8 @@ from ._recipe import Recipe
 from ._scene import fsspec, is_address, write_bytes
 from .errors import Error
 
-#: The default number of parts of a batch for each thread of a cluster. Files vary in size, so a thread that finishes a
-#: part early runs another part.
+#: By default, a batch has this number of parts for each thread of the cluster. Files vary in size, so a thread that
+#: finishes a part early runs another part.
 PARTS_PER_THREAD = 8
 #: The memory that a process takes in addition to its meshes, in bytes.
 PROCESS_BYTES = 128 << 20

@@ -49,8 +49,9 @@ def kept(values: Any) -> NDArray[Any] | None:
 
 
 def one_for_each_vertex(values: NDArray[Any], mesh: Mesh) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.int64]]:
-    """Converts values of the corners of triangles to values of vertices. A vertex whose corners have several values is
-    copied for each further value. Returns the values, the triangles, and for each copy the vertex that was copied."""
+    """Converts values of the corners of triangles to values of vertices. If the corners of a vertex have k different
+    values, the vertex gets k - 1 copies. Returns the values, the triangles, and for each copy the vertex that was
+    copied."""
     corners = mesh.corners.astype(np.int64)
     of_vertex = np.zeros((mesh.n_vertices, values.shape[1]))
     of_vertex[corners] = values

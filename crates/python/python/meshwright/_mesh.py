@@ -33,8 +33,8 @@ DOMAINS: tuple[Domain, ...] = ("vertex", "corner", "edge", "face")
 class HalfEdges(NamedTuple):
     """The connectivity of a mesh, as read-only arrays of `uint32` without a copy.
 
-    The two halves of edge ``e`` are the half-edges ``2 * e`` and ``2 * e + 1``: ``h ^ 1`` is the other half, and
-    ``h >> 1`` the edge. 4294967295 stands for a missing face or half-edge.
+    The two halves of edge ``e`` are the half-edges ``2 * e`` and ``2 * e + 1``. For a half-edge ``h``, the other half
+    is ``h ^ 1``, and the edge is ``h >> 1``. 4294967295 stands for a missing face or half-edge.
     """
 
     #: For each half-edge, the next half-edge around its face. On the boundary, the next half-edge around the hole.
@@ -43,7 +43,7 @@ class HalfEdges(NamedTuple):
     origin: NDArray[np.uint32]
     #: For each half-edge, its face, or 4294967295 if the half-edge is on the boundary.
     face: NDArray[np.uint32]
-    #: For each vertex, a half-edge that starts at the vertex. If a boundary half-edge starts there, this half-edge.
+    #: For each vertex, a half-edge that starts at the vertex. At a boundary vertex, this is a boundary half-edge.
     of_vertex: NDArray[np.uint32]
     #: For each face, one of its half-edges.
     of_face: NDArray[np.uint32]
@@ -203,8 +203,8 @@ class Mesh(MeshConversions, MeshOperations):
         name: str,
         repair: bool = True,
     ) -> tuple[Self, NDArray[np.uint32], NDArray[np.uint32]]:
-        """Returns a mesh of points and polygons, the index of the point of each vertex, and the index of the polygon of
-        each face."""
+        """Returns a mesh of points and polygons. Also returns two arrays: for each vertex, the index of its point, and
+        for each face, the index of its polygon."""
         positions = points(vertices)
         starts, corners = polygons(faces, face_starts)
         core, repairs, point_of_vertex, polygon_of_face = _core.from_arrays(positions, starts, corners, repair)
@@ -352,7 +352,8 @@ class Mesh(MeshConversions, MeshOperations):
             or flags, which make a tag.
         :param domain: vertex, corner, edge or face. If omitted, the only domain that has as many elements as there are
             values.
-        :param rule: What edits do with the values. Defaults to "copy" for whole numbers and flags, and to "interpolate" for other values.
+        :param rule: How edits compute the values of new elements. Defaults to "copy" for whole numbers and flags, and
+            to "interpolate" for other values.
         """
         array = numeric(values, f"the values of {name!r}")
         if array.ndim not in (1, 2) or array.ndim == 2 and not 1 <= array.shape[1] <= 4:
@@ -419,7 +420,7 @@ class Mesh(MeshConversions, MeshOperations):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the last operation or conversion reported: repairs, losses and other facts. :meth:`with_attribute`,
+        """The report of the last operation or conversion: repairs, losses and other facts. :meth:`with_attribute`,
         :meth:`without_attribute`, :meth:`with_vertices` and :meth:`edit` keep the notes."""
         return self._notes
 
@@ -527,7 +528,7 @@ class Mesh(MeshConversions, MeshOperations):
         return Scene(self._scene, (), self._history)
 
     def recipe(self) -> Recipe:
-        """Returns the recipe of the steps that made the mesh, from the file or the shape with which it began. A run of
+        """Returns a recipe with the steps that made the mesh. The first step loads a file or creates a shape. A run of
         the recipe gives a mesh with the same :attr:`digest`.
 
         >>> import meshwright as mw
@@ -570,7 +571,8 @@ class Mesh(MeshConversions, MeshOperations):
 
         :param color_by: What the colors show, as in :meth:`picture`: a quantity such as ``"MeanCurvature"``, the name
             of an attribute of vertices or faces, or a mapping with the keys ``"of"`` and ``"range"``.
-        :param wireframe: Whether edges are drawn at first. If omitted, only for meshes of at most 20,000 faces.
+        :param wireframe: Whether edges are drawn at first. If omitted, edges are drawn for meshes of at most 20,000
+            faces.
         :param height: The height in pixels.
         """
         from ._view import View

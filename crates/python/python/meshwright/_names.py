@@ -144,7 +144,7 @@ def selections() -> dict[str, list[Any]]:
 
 @cache
 def others() -> dict[str, list[Any]]:
-    """Returns the variants that the module `choice` contains: those with parameters that are neither selections nor
+    """Returns the variants that the module `choice` contains: all variants with parameters, except selections and
     expectations."""
     skipped = {*SELECTIONS, *EXPECTATIONS, "Step", "Param", "OnLoss", "Refusal", *operations()}
     found = variants([name for name in root()["$defs"] if name not in skipped])

@@ -33,7 +33,7 @@ class Step:
     faces: int
     #: How long the step took.
     seconds: float
-    #: What the step reported: refusals, losses and other facts, one line each.
+    #: The report of the step: refusals, losses and other facts, one line each.
     notes: tuple[str, ...]
 
 

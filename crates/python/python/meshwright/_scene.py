@@ -77,8 +77,8 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         return self._core.kind(name)
 
     def with_object(self, mesh: Mesh, *, name: str | None = None) -> Self:
-        """Returns the scene with an additional object, which is the object of the mesh. The object is named `name`, or
-        keeps its name if `name` is omitted."""
+        """Returns the scene with a mesh as an additional object. The name of the object is `name` or, if `name` is
+        omitted, the name of the mesh."""
         if self._history.is_empty and name in (None, mesh.name):
             history = mesh._history
         else:
@@ -99,7 +99,7 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the last operation reported: repairs, losses and other facts, one line each. :meth:`with_object`,
+        """The report of the last operation: repairs, losses and other facts, one line each. :meth:`with_object`,
         :meth:`only` and :meth:`placed` keep the notes."""
         return self._notes
 
@@ -246,12 +246,12 @@ class Scene(SceneOperations, Mapping[str, Mesh]):
         return f"Scene({', '.join(parts)})"
 
 
-#: The operations that write a file, whose path is their parameter `path`.
+#: The operations that write a file. The parameter `path` is the path of this file.
 WRITES = {"Save", "Picture", "CurveFigure", "HalfEdgeFigure", "UvPicture"}
 
 
 def whole_step(operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None) -> str:
-    """Writes a step of a recipe, with its `id` and the names `on` of its objects if they are given."""
+    """Writes a step of a recipe, with the fields `id` and `on` if they are given."""
     step = _ron.step(operation, fields)
     if on is None and id is None:
         return step

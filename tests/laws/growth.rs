@@ -1,23 +1,23 @@
 //! Checks how the time of operations and expectations grows with the mesh. On a mesh with twice as many faces, an
 //! operation must take at most 2.3 times as long.
 //!
-//! These tests measure times, because nothing that can be counted shows the work: the number of progress reports does
-//! not depend on the size of the mesh, and a quadratic search allocates no memory. The tests run only on request, and
-//! take about ten minutes:
+//! These tests measure times, because no count shows how much work was done: the number of progress reports does not
+//! depend on the size of the mesh, and a quadratic search allocates no memory. The tests run only on request, and take
+//! about ten minutes:
 //!
 //! ```text
 //! MALLOC_ARENA_MAX=1 MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=100000000000 \
 //!     cargo test --release -p meshwright-tests --test laws growth -- --ignored --nocapture --test-threads 1
 //! ```
 //!
-//! The environment variables tell the allocator of Linux to keep memory. Without them, the time jumps at the size at
-//! which the system provides new memory for each run.
+//! The environment variables tell the allocator of Linux to keep memory. Without them, the time jumps when the meshes
+//! become so large that the system provides new memory for each run.
 //!
 //! Each measured time is the median of the processor times of several runs on one thread, so that other programs hardly
 //! affect it. The time on a mesh is compared with the time on a mesh that is four times as large (doubled twice). If
 //! the time grows too much, the same two meshes are measured again. If it still grows too much, the measurement is
-//! repeated with two meshes that are four times as large, because the time jumps at the size at which the data no
-//! longer fit in a cache.
+//! repeated with two meshes that are four times as large, because the time jumps when the data no longer fit in a
+//! cache.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -37,8 +37,8 @@ use crate::extremes::MEASURES;
 use crate::fixtures::with_attributes;
 use crate::samples::samples;
 
-/// The largest allowed factor between the times for a mesh and for a mesh that is four times as large: 2.3 for each of
-/// two doublings.
+/// The largest allowed growth of the time if a mesh becomes four times as large: a factor of 2.3 for each of two
+/// doublings.
 const MAX_GROWTH: f64 = 2.3 * 2.3;
 
 /// The minimum time of a measurement. Meshes are enlarged until the work takes this long.
@@ -47,8 +47,7 @@ const LONG_ENOUGH: Duration = Duration::from_millis(4);
 /// The maximum time for the first mesh that is measured. If the work takes longer, the test fails.
 const TOO_LONG: Duration = Duration::from_secs(20);
 
-/// The number of faces of the first mesh that is measured, and the maximum number of faces of the smaller of two
-/// compared meshes.
+/// Numbers of faces: of the first mesh that is measured, and the maximum for the smaller one of two compared meshes.
 const SIZES: [usize; 2] = [1000, 64_000];
 
 /// Operations that are not tested, because their samples fit no generated scene, or because their work does not grow
@@ -236,8 +235,8 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
     if first <= MAX_GROWTH {
         return Growth::By(first);
     }
-    // The time can jump once, at the size at which the data no longer fit in a cache, or at which memory is no longer
-    // reused. If the algorithm itself is too slow, the time also grows too much between two larger meshes.
+    // The time can jump once, when the data no longer fit in a cache, or when memory is no longer reused. If the
+    // algorithm itself is too slow, the time also grows too much between two larger meshes.
     Growth::By(first.min(growth(&large, &scene(16 * n))))
 }
 

@@ -272,8 +272,8 @@ impl Polygons {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // The corners of the first face are rotated so that they start with a, b, c, and the corners of the second face
-        // so that they start with b, a, d.
+        // The lists of corners are rotated: the first face then starts with the corners a, b, c, and the second face
+        // with b, a, d.
         let from = |f: usize, start: (u32, u32)| {
             let mut face = self.faces[f].clone();
             let place = sides(&face).position(|side| side == start);

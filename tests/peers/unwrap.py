@@ -75,9 +75,9 @@ def n_charts(uvs):
 
 
 def measure(positions, uvs):
-    """Returns the number of charts, the covered part of the page, the aspect that 95 % of the area does not exceed, the
-    ratio of the largest to the smallest area scale, and the fraction of mirrored triangles. The ratio leaves out 2.5 %
-    of the area at each end."""
+    """Returns five numbers: the number of charts, the covered part of the page, the aspect (an upper limit for 95 % of
+    the area), the ratio of the largest to the smallest area scale, and the fraction of mirrored triangles. The ratio
+    leaves out the largest and the smallest scales, on 2.5 % of the area each."""
     a, b = positions[:, 1] - positions[:, 0], positions[:, 2] - positions[:, 0]
     length = numpy.linalg.norm(a, axis=1)
     area = numpy.linalg.norm(numpy.cross(a, b), axis=1) / 2

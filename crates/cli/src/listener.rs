@@ -82,7 +82,7 @@ impl Progress for Terminal<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
         if !self.bar.is_hidden() {
             let step = lock(&self.step);
-            // The bar gets the step and its task as a single message, so that it never shows a step with the task of
+            // The bar gets the step and its task as a single message. Otherwise, it could show a step with the task of
             // another step.
             let message = match step.as_str() {
                 "" => what.to_owned(),

@@ -9,9 +9,9 @@ use crate::array::Array;
 use crate::interrupt::run;
 use crate::mesh_views::Mesh;
 
-/// Returns the cotangent Laplacian in compressed row storage, and the areas of the vertices. The result is four arrays:
-/// the index of the first entry of each row (and the number of entries), the columns of the entries, the values of the
-/// entries, and the areas.
+/// Returns the cotangent Laplacian in compressed row storage, and the areas of the vertices. The result is four arrays.
+/// The first has the index of the first entry of each row, followed by the number of entries. The others have the
+/// columns of the entries, the values of the entries, and the areas.
 #[pyfunction]
 pub(crate) fn laplacian(py: Python<'_>, mesh: &Mesh) -> PyResult<(Array, Array, Array, Array)> {
     let (starts, columns, values, areas) = run(py, None, |progress| {
@@ -38,9 +38,9 @@ pub(crate) fn laplacian(py: Python<'_>, mesh: &Mesh) -> PyResult<(Array, Array, 
     ))
 }
 
-/// Returns the matrix that maps positions to refined positions, in compressed row storage. The result is the index of
-/// the first entry of each row (and the number of entries), the columns of the entries, the values of the entries, and
-/// the number of columns of the matrix.
+/// Returns the matrix that maps positions to refined positions, in compressed row storage. The first value of the
+/// result is an array with the index of the first entry of each row, followed by the number of entries. The other
+/// values are the columns of the entries, the values of the entries, and the number of columns of the matrix.
 #[pyfunction]
 pub(crate) fn subdivision(
     py: Python<'_>,

@@ -71,8 +71,8 @@ impl Mesh {
         Array::of(&self.0, part).ok_or_else(|| PyKeyError::new_err("array"))
     }
 
-    /// Returns the vertex of each corner, face by face, and the index of the first corner of each face, followed by the
-    /// number of all corners.
+    /// Returns two arrays. The first has the vertex of each corner, face by face. The second has the index of the first
+    /// corner of each face, followed by the number of all corners.
     fn polygons(&self, py: Python<'_>) -> PyResult<(Array, Array)> {
         let (corners, starts) = run(py, None, |_| {
             let mesh = &self.0;

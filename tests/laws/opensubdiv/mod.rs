@@ -287,8 +287,8 @@ fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
     // rule keeps corners, and puts new vertices at the midpoints of edges.
     let [corner, far] = [[7.0 / 9.0; 3], [0.0, 0.875, 0.875]];
     assert_positions("known_sharp_cube", &[(near, 6), (corner, 8), (far, 12)]);
-    // If no boundary vertex is a corner, the new position of a boundary vertex has the weights 3/4 for the vertex
-    // itself and 1/8 for each of its two neighbors on the boundary.
+    // In the new position of a boundary vertex that is not a corner, the vertex itself has the weight 3/4, and each of
+    // its two neighbors on the boundary has the weight 1/8.
     let [corner, far] = [[0.0, 0.75, 0.75], [0.0, 0.0, 1.0]];
     assert_positions("known_square", &[([0.0; 3], 1), (corner, 4), (far, 4)]);
     // The uvs of the square are the positions of its corners, and the rule `CornersOnly` keeps these uvs.

@@ -67,8 +67,8 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
                 let now = loaded.recipe.sources.iter().map(|s| s.text.clone());
                 let now: Vec<_> = now.collect();
                 let is_same = texts.as_ref() == Some(&now);
-                // If the texts of the recipe are the same as before, and the cache had the results of all steps, these
-                // results have already been printed.
+                // If the recipe is unchanged and the cache had the results of all steps, these results have already
+                // been printed.
                 let is_unchanged = |o: &Outcome| {
                     is_same && o.succeeded() && o.steps.iter().all(|s| s.ran.is_none())
                 };

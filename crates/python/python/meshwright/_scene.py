@@ -321,7 +321,8 @@ def write_bytes(address: str, data: bytes) -> None:
 
 
 def read(path: str | os.PathLike[str], **options: Any) -> Scene:
-    """Reads a file as a scene. `scene.mesh()` is its only mesh. `scene.notes` lists what was repaired or left out.
+    """Reads a file as a scene. `scene.mesh()` is its only mesh. `scene.notes` lists the repairs, and the content that
+    was left out.
 
     :param path: The file: .obj, .gltf, .glb, .ply, .stl, .off, .dae, .mws, .bez or .bzc. Addresses such as `s3://`
         need fsspec, and a file at an address must not refer to other files.

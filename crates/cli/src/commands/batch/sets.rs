@@ -29,8 +29,8 @@ pub(crate) struct ParameterSet {
 ///
 /// # Errors
 ///
-/// Returns an error if the file is not a list of objects, or if a parameter does not exist, already has a value, or
-/// gets a value of the wrong type.
+/// Returns an error if the file is not a list of objects. Also returns an error if a parameter does not exist, already
+/// has a value, or gets a value of the wrong type.
 pub(super) fn read(
     path: &Path,
     parameters: &[Parameter],

@@ -75,9 +75,11 @@ class EditError(Error):
 
 
 class LossWarning(UserWarning):
-    """A saved file lacks some of the data, because its format cannot store them. The text lists this data. An ``.mws``
-    file stores everything. If the losses do not matter, ``warnings.simplefilter("ignore", mw.LossWarning)`` hides the
-    warnings. With ``"error"`` in place of ``"ignore"``, they become exceptions. In both cases, the file is written.
+    """A saved file lacks some of the data, because its format cannot store them. The text lists this data.
+
+    An ``.mws`` file stores everything. If the losses do not matter,
+    ``warnings.simplefilter("ignore", mw.LossWarning)`` hides the warnings. With ``"error"`` in place of ``"ignore"``,
+    they become exceptions. In both cases, the file is written.
     """
 
 

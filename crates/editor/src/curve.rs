@@ -87,9 +87,9 @@ impl Editor {
     /// Moves a control point of a curve or patch. The control point must exist in the scene at the step cursor, which
     /// is a position between two steps of the recipe. A step `MoveControlPoint` or `MovePatchPoint` is inserted at the
     /// cursor. The new position `to` is in the space of the object, in which curves lie in the plane z = 0. If the step
-    /// before the cursor already moves the same control point, the parameter `to` of that step is changed instead. If
-    /// the user drags the same control point several times, the text thus gets only one step. If `is_preview` is true,
-    /// the movement is only previewed, and the text does not change.
+    /// before the cursor already moves the same control point, the parameter `to` of that step is changed instead.
+    /// Several movements of the same control point therefore become one step. If `is_preview` is true, the movement is
+    /// only previewed, and the text does not change.
     ///
     /// # Errors
     ///

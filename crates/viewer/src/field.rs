@@ -304,7 +304,7 @@ fn whole<'a>(n: &'a mut i64, limits: &Limits) -> DragValue<'a> {
     DragValue::new(n).speed(speed).range(low..=high)
 }
 
-/// Returns a number field for a number of a vector.
+/// Returns a number field for one component of a vector.
 fn component(x: &mut f64) -> DragValue<'_> {
     let speed = (x.abs() * 0.01).max(0.01);
     unlimited(x, &Limits::default()).speed(speed)

@@ -272,7 +272,8 @@ fn variants_at(editor: &editor::Editor, at: usize) -> Vec<recipe::VariantDoc> {
     field.map_or_else(Vec::new, |field| field.variants)
 }
 
-/// Handles the keys of the completion. Returns the range that was replaced.
+/// Handles the keys for the list of completions: the arrow keys choose an entry, Tab or Enter inserts it, and Escape
+/// closes the list. Returns the range of the text that the entry replaced, or `None` if no entry was inserted.
 fn accept(ui: &mut Ui, parts: &mut Parts, words: &Words, id: Id) -> Option<Range<usize>> {
     if words.texts.is_empty() {
         parts.text.chosen = 0;

@@ -121,8 +121,8 @@ impl Session {
     }
 
     /// Checks and runs a recipe. Calls `listen` with the events `step`, `progress` and `done`, which have the same form
-    /// as in the output of `meshwright run --format json`. At most ten events `progress` are sent per second. If
-    /// `listen` returns false for an event `progress`, the run is canceled.
+    /// as in the output of `meshwright run --format json`. At most ten `progress` events are sent per second. If
+    /// `listen` returns false for a `progress` event, the run is canceled.
     ///
     /// The run starts at the first step that differs from the last run or that writes a file. The run starts earlier if
     /// the scene before this step was not kept, or if an expectation must be checked again. The first run after a file

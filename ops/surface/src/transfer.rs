@@ -28,11 +28,11 @@ use origins::{Origin, Source};
 /// type of values, the attribute is overwritten. If the type of values differs, the step fails. If the step does not
 /// name its objects with `on`, it changes all meshes except `from`.
 ///
-/// All corners of a face of the changed mesh take their values from the same side of a seam of the source object. No
-/// triangle is therefore stretched across the seam in the texture. Usually the side that is nearest to the center of
-/// the face is used. Seams divide the source object into charts. Where parts of the source object intersect, the chart
-/// that is nearest to the center can be far from the corners of the face. If the chart that is nearest to a corner is
-/// much nearer to the whole face, this chart is used instead.
+/// Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
+/// same chart and, if a seam lies inside this chart, from the same side of this seam. This prevents triangles from
+/// stretching across a seam of the texture. Usually the chart that is nearest to the center of the face is used. Where
+/// parts of the source object intersect, the chart that is nearest to the center can be far from the corners of the
+/// face. If the chart that is nearest to a corner is much nearer to the whole face, this chart is used instead.
 ///
 /// Elements that are farther from the source object than `within` keep their values, or get zeros if the attribute is
 /// new. All corners of a face are treated alike. If one of the corners or the center of the face is too far away, all

@@ -136,9 +136,9 @@ impl Editor {
     }
 
     /// Moves the picked elements with a step `MoveVertices`. If the step before the cursor already moves the same
-    /// elements in the same way, the parameter `by` of that step is changed instead. If the user drags the same
-    /// elements several times, the text thus gets only one step. If `is_preview` is true, the movement is only
-    /// previewed, and the text does not change.
+    /// elements in the same way, the parameter `by` of that step is changed instead. Several movements of the same
+    /// elements therefore become one step. If `is_preview` is true, the movement is only previewed, and the text does
+    /// not change.
     ///
     /// # Errors
     ///

@@ -52,7 +52,7 @@ fn cut_option(text: &str) -> Option<(&str, &str)> {
     (most_values(word) > 0).then_some((word, rest))
 }
 
-/// The largest number of values of an option; 0 if the word is not an option.
+/// Returns the maximum number of values that can follow an option, or 0 if the word is not an option.
 fn most_values(option: &str) -> usize {
     match option {
         "-o" | "-s" | "-t" => 3,

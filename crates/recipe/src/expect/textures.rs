@@ -37,7 +37,7 @@ pub(super) fn stretch(subject: Subject, name: &str) -> Result<f64, Violation> {
     Ok(aspects.fold(1.0, f64::max))
 }
 
-/// Returns the number of faces that overlap another face of the same mesh in the texture.
+/// Returns the number of faces that, in the texture, overlap themselves or another face of the same mesh.
 pub(super) fn n_overlapping(subject: Subject, name: &str) -> Result<u64, Violation> {
     let mut n = 0;
     for (mesh, uvs) in textured(subject, name)? {
@@ -66,7 +66,7 @@ pub(super) fn stretched_faces(mesh: &Mesh, name: &str, max: f64) -> Vec<FaceId> 
     stretched.into_iter().map(|(f, _)| f).collect()
 }
 
-/// Returns the faces that overlap another face of the mesh in the texture.
+/// Returns the faces that, in the texture, overlap themselves or another face of the mesh.
 pub(super) fn overlapping_faces(mesh: &Mesh, name: &str, progress: &dyn Progress) -> Vec<FaceId> {
     let found = coordinates(mesh, name).map(|uvs| uv::overlapping_faces(mesh, uvs, progress));
     found.and_then(Result::ok).unwrap_or_default()

@@ -6,8 +6,8 @@
 //! {"parts": [{"part": 1, "runs": 12, "bytes": 34603008}]}
 //! ```
 //!
-//! `bytes` is the largest of the estimates for the runs of the part. A process that makes one run at a time
-//! (`--threads 1`) needs this memory.
+//! A part can have several runs. `bytes` is the largest estimate for one of these runs. A process that makes one run at
+//! a time (`--threads 1`) needs this memory.
 
 use anyhow::ensure;
 use mesh::counted;

@@ -15,7 +15,7 @@ pub enum Walk {
     AroundVertex,
 }
 
-/// Returns the half-edge to which a step from the half-edge `h` leads.
+/// Walks one step from the half-edge `h`, and returns the half-edge that is reached.
 ///
 /// # Panics
 ///

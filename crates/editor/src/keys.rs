@@ -73,7 +73,7 @@ pub enum Action {
     NextProposal,
     /// Also pick the neighbors of the picked elements.
     Grow,
-    /// Unpick the picked elements that have a neighbor that is not picked.
+    /// Unpick each picked element with an unpicked neighbor.
     Shrink,
     /// Pick the edge loop through the picked edges.
     EdgeLoop,
@@ -108,7 +108,7 @@ pub enum Action {
 }
 
 impl Action {
-    /// Returns what the action does, for the help.
+    /// Returns the description of the action, which the help shows.
     pub fn doc(self) -> &'static str {
         let found = rows().find(|row| row.0 == self);
         found.map_or("", |row| row.2)

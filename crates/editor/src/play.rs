@@ -14,8 +14,8 @@ use crate::edit::Editor;
 /// The maximum number of edits that are played.
 const MAX_EDITS: usize = 10_000;
 
-/// The name of the operation for Loop subdivision. One level of it can be played as splits, flips and moves of
-/// vertices.
+/// The name of the operation for Loop subdivision. One level of this subdivision can be played as splits, flips and
+/// moves of vertices.
 const LOOP: &str = "LoopSubdivide";
 
 /// The local edits of a step, and the number of edits that are done.
@@ -23,7 +23,7 @@ const LOOP: &str = "LoopSubdivide";
 pub struct Play {
     mesh: Mesh,
     edits: Vec<PlayedEdit>,
-    /// For each edit that is done, the change that undoes it. For each edit that is not done, the change that does it.
+    /// One change of the mesh for each edit. If the edit is done, the change undoes it. Otherwise, the change does it.
     changes: Vec<Option<Change>>,
     at: usize,
 }
@@ -355,8 +355,8 @@ fn edges(
     }
 }
 
-/// Returns the half-edges around an edge, in the order of their indices. The result has the half-edges that start or
-/// end at one of the two vertices of the edge, and all half-edges of the faces around these two vertices.
+/// Returns the half-edges near an edge: all half-edges that start or end at its two vertices, and all half-edges of the
+/// faces around these vertices. The half-edges are in the order of their indices.
 fn half_edges_around(mesh: &Mesh, edge: EdgeId) -> Vec<HalfEdgeId> {
     if !mesh.has_edge(edge) {
         return Vec::new();

@@ -18,8 +18,8 @@ pub struct Command {
     pub operation: String,
     /// The names of the parameters, and their values as RON.
     pub parameters: Vec<(String, String)>,
-    /// The selection of the elements on which the operation works. The selection becomes the value of the first
-    /// parameter that selects elements, if the command gives this parameter no value.
+    /// The selection of the elements on which the operation works. If the command gives no value to the first parameter
+    /// that selects elements, this selection becomes the value of that parameter.
     pub selection: Option<SelectionText>,
     /// The object that the step acts on. If `None`, the step usually acts on all objects. But if the scene has several
     /// meshes and the command has a selection, the step acts only on the object of the selection.
@@ -77,9 +77,9 @@ pub enum CommandError {
 }
 
 impl SelectionText {
-    /// Returns the selection for a command with the operation `name`. If the step `before` has the same operation,
-    /// which adds a tag to elements, the step `before` is not needed. In this case, the returned selection lists the
-    /// elements that the step `before` would tag. In all other cases, returns a copy of `self`.
+    /// Returns the selection for a command with the operation `name`. If this operation is also the operation of the
+    /// step `before`, such as `TagFaces`, the step `before` is not needed. The returned selection then lists the
+    /// elements that this step would tag. For all other operations, returns a copy of `self`.
     fn without_tag(&self, name: &str) -> Self {
         let elements = self.before.as_deref().and_then(|before| {
             let step = parse(before).value;
@@ -149,7 +149,7 @@ const KEEPS_IDS: &[&str] = &[
 ];
 
 impl Editor {
-    /// Returns the selection that describes the picked elements, in the form in which a command needs it.
+    /// Returns the selection that describes the picked elements, for use in a command.
     pub fn selection(&mut self) -> Option<SelectionText> {
         let proposal = self.proposal()?.clone();
         let picked = self.picked.as_ref()?;
@@ -246,7 +246,7 @@ impl Editor {
                             operation: name.clone(),
                             kind: kind.map_or("elements", ElementKind::word),
                         })?;
-                    // In the text of the step, the selection is the first parameter, as in recipes that people write.
+                    // The selection is written before all other parameters, as in recipes that people write.
                     let others: Vec<(String, String)> = command.parameters.clone();
                     for (other, _) in &others {
                         panel.set(other, None);
@@ -373,7 +373,8 @@ fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> 
 }
 
 impl Panel {
-    /// Whether a command sets a parameter of this operation to picked elements of this kind, without a conversion.
+    /// Whether a command can give picked elements of this kind to the operation without converting them to another
+    /// kind.
     pub fn takes_picked(&self, kind: ElementKind) -> bool {
         unset_selection(self).is_some_and(|(_, wanted)| wanted.is_none_or(|wanted| wanted == kind))
     }
@@ -402,7 +403,7 @@ fn converted(selection: &SelectionText, wanted: Option<ElementKind>) -> Option<S
         }),
         Some(kind) if kind == selection.kind => Some(text.clone()),
         Some(kind) => {
-            // The last conversion in the list is the narrowest one, such as `EdgesWithin` instead of `EdgesAround`.
+            // The list ends with the narrowest conversion. For example, `EdgesWithin` is narrower than `EdgesAround`.
             let outer = kind.conversions(selection.kind).last()?;
             Some(format!("{outer}({text})"))
         }

@@ -36,8 +36,8 @@ pub struct Settings {
     pub out: PathBuf,
     /// The memory budget for the meshes of a run, in bytes. Defaults to [`engine::BUDGET`].
     pub budget: u64,
-    /// The maximum memory, in bytes, for the scenes that are kept after steps have run, so that these steps need not
-    /// run again. Defaults to 4 GiB.
+    /// The maximum memory for kept scenes, in bytes. If the scene after a step is kept, the step need not run again.
+    /// Defaults to 4 GiB.
     pub memory: u64,
     /// The folder for journals, from which unsaved texts are recovered after a crash. If `None`, which is the default,
     /// no journal is written.
@@ -79,7 +79,7 @@ pub struct Editor {
     preview: Option<Arc<str>>,
     /// The number of steps that the preview inserts at the cursor.
     preview_steps: usize,
-    /// The number of steps of the text before the cursor.
+    /// The step cursor: the number of steps that precede it in the text.
     cursor: usize,
     /// The scene that is shown. While the scene at the step cursor is not known, this is an earlier scene.
     shown: Arc<Scene>,
@@ -89,8 +89,8 @@ pub struct Editor {
     has_picked: bool,
     /// The selections that describe the picked elements.
     proposals: Proposals,
-    /// The selection that describes the picked elements until another selection is requested. Either the user has typed
-    /// this selection, or a single element is picked and this selection describes it.
+    /// The selection that describes the picked elements at first: a selection that the user has typed, or the selection
+    /// for a single picked element. If another selection is requested, a selection from `proposals` is used instead.
     first_proposal: Option<Proposal>,
     proposal: usize,
     indexes: Indexes,
@@ -114,7 +114,7 @@ pub enum OpenError {
 /// The changes since the last call of [`Editor::poll`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Update {
-    /// Whether the scene at the cursor has possibly changed.
+    /// False if the scene at the cursor has certainly not changed.
     pub scene: bool,
     /// Whether the state of the run changed.
     pub run: bool,
@@ -236,7 +236,7 @@ impl Editor {
         &self.run
     }
 
-    /// Whether [`run`](Self::run) belongs to the current text, so that its spans fit the text.
+    /// Whether [`run`](Self::run) belongs to the current text. Only then do the spans of the run fit the text.
     pub fn is_run_current(&self) -> bool {
         self.run_version == Some(self.document.version())
     }
@@ -345,8 +345,8 @@ impl Editor {
         }
     }
 
-    /// Returns the step cursor: the number of steps of the text before the cursor. The view shows the scene after the
-    /// steps before the cursor. New steps are inserted at the cursor.
+    /// Returns the step cursor: the number of steps that precede it in the text. The view shows the scene after these
+    /// steps. New steps are inserted at the cursor.
     pub fn cursor(&self) -> usize {
         self.cursor
     }
@@ -368,21 +368,21 @@ impl Editor {
         }
     }
 
-    /// Returns the steps of the newest run that come from the step `item` of the text, as a range of indices into the
-    /// steps of the run. During a preview, the run can have more steps than the text. The returned range takes these
-    /// additional steps into account.
+    /// Returns which steps of the newest run come from the step with the index `item` in the text. The result is a
+    /// range of indices into the steps of the run. During a preview, the run can have more steps than the text. The
+    /// returned range takes these additional steps into account.
     pub fn steps_of_item(&self, item: usize) -> std::ops::Range<usize> {
         let is_after = item >= self.cursor;
         let new = if is_after { self.preview_steps } else { 0 };
         self.run.steps_of(item + new)
     }
 
-    /// Returns the last known result among the steps before the cursor. Also returns whether this result is the result
-    /// at the cursor, and not of an earlier step.
+    /// Returns the last known result of the steps before the cursor. Also returns whether the results of all steps
+    /// before the cursor are known.
     fn result(&self) -> (Option<&Snapshot>, bool) {
         let n = self.cursor + self.preview_steps;
         let (last, is_known) = self.run.result_after(n);
-        // If the recipe has errors, the run can lack the step before the cursor, because this step could not be read.
+        // If the step before the cursor could not be read because of an error, the run does not contain this step.
         let is_before_first = n == 0 && !self.outline.steps.is_empty();
         let is_read = is_before_first
             || !self.run.has_errors()
@@ -406,8 +406,8 @@ impl Editor {
         };
         if !Arc::ptr_eq(&self.shown, &shown) {
             self.shown = shown;
-            // In another scene, the picked elements possibly do not exist, or a different selection is needed to select
-            // them. A preview keeps the picked elements and their selection.
+            // In another scene, some of the picked elements may not exist, or another selection may be needed to
+            // select them. A preview keeps the picked elements and their selection.
             if self.preview.is_none() {
                 self.keep_picked();
             } else {

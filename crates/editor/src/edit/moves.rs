@@ -20,7 +20,8 @@ pub enum Movement {
     Scale(DVec3),
 }
 
-/// The value of the parameter `by` of a step `MoveVertices`, which changes when the user drags the picked elements.
+/// The value of the parameter `by` of a step `MoveVertices`. When the user drags the picked elements, this value
+/// changes.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 enum By {
     Offset([f64; 3]),

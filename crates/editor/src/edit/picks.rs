@@ -31,8 +31,8 @@ pub enum PickError {
     /// The scene has no mesh.
     #[error("the scene has no mesh whose elements can be picked")]
     NoMesh,
-    /// The text is not a selection, or the selection fails on the mesh, such as an `Expect` with another number of
-    /// elements.
+    /// The text is not a selection, or the selection fails on the mesh. For example, `Expect` fails if the number of
+    /// elements is not the expected number.
     #[error("{0}")]
     Selection(String),
     /// The selection selects no elements.
@@ -70,7 +70,7 @@ impl Editor {
         }
     }
 
-    /// Returns the selection with which commands describe the picked elements.
+    /// Returns the selection that commands use to describe the picked elements.
     pub fn proposal(&mut self) -> Option<&Proposal> {
         let at = self.proposal;
         if self.first_proposal.is_none() && matches!(self.proposals, Proposals::Unknown) {
@@ -103,9 +103,9 @@ impl Editor {
         };
     }
 
-    /// Whether the search for the selections that describe several picked elements is still in progress. In a large
-    /// mesh, the search takes long. Commands wait for the end of the search. To avoid waiting, a window calls this
-    /// function before it shows a selection.
+    /// Whether a thread still searches for the selections that describe the picked elements. If several elements of a
+    /// large mesh are picked, the search takes long. Commands wait for the end of the search. To avoid waiting, a
+    /// window calls this function before it shows a selection.
     pub fn is_searching(&mut self) -> bool {
         let is_one = self.picked.as_ref().is_some_and(|picked| picked.len() == 1);
         if !is_one && self.first_proposal.is_none() {
@@ -114,9 +114,9 @@ impl Editor {
         matches!(&self.proposals, Proposals::Searching(thread) if !thread.is_finished())
     }
 
-    /// Whether another selection possibly also describes the picked elements. The result can be true although no other
-    /// selection exists, because the selections are computed only when they are requested. In a large mesh, this
-    /// computation takes long.
+    /// Returns false if no other selection describes the picked elements, or if nothing is picked. Can return true
+    /// although no other selection exists, because the selections are computed only when they are requested. In a large
+    /// mesh, this computation takes long.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
             Proposals::Known(proposals) => proposals.len() > 1,

@@ -79,10 +79,10 @@ impl Editor {
         self.edit(edits, "change a parameter", None)
     }
 
-    /// Runs the recipe with another value of a parameter of a step, as a preview, for example while the user drags a
-    /// slider. If a run with an older value is still in progress, it is canceled. Afterwards,
-    /// [`set_parameter`](Self::set_parameter) can write the value to the text, or [`end_preview`](Self::end_preview)
-    /// can end the preview.
+    /// Previews another value of a step's parameter, for example while the user drags a slider: runs the recipe with
+    /// this value, but does not change the text. If a run with an older value is still in progress, it is canceled.
+    /// Afterwards, [`set_parameter`](Self::set_parameter) can write the value to the text, or
+    /// [`end_preview`](Self::end_preview) can end the preview.
     ///
     /// # Errors
     ///
@@ -109,7 +109,8 @@ impl Editor {
         text::set_field(self.text(), run, &path, value)
     }
 
-    /// Returns the text of the value of a parameter of a step. Returns `None` if the step does not set the parameter.
+    /// Returns the value of a step's parameter, as written in the text. Returns `None` if the step does not set the
+    /// parameter.
     pub fn parameter(&self, step: usize, path: &[&str]) -> Option<&str> {
         let path: Vec<String> = path.iter().map(|&item| item.to_owned()).collect();
         let value = text::field_value(self.outline.run_of(step)?, &path)?;
@@ -126,8 +127,8 @@ impl Editor {
         self.edit(edits, "change a parameter of the recipe", None)
     }
 
-    /// Runs the recipe with another default value of one of its parameters, as a preview, for example while the user
-    /// drags a slider.
+    /// Previews another default value of one of the recipe's parameters, for example while the user drags a slider:
+    /// runs the recipe with this value, but does not change the text.
     ///
     /// # Errors
     ///
@@ -184,7 +185,7 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// Returns [`CommandError::Text`] if there is no step with one of these indices.
+    /// Returns [`CommandError::Text`] if one of the two indices is not less than the number of steps.
     pub fn move_step(&mut self, from: usize, to: usize) -> Result<(), CommandError> {
         let edits = text::move_step(self.text(), &self.outline, from, to)?;
         let cursor = self.cursor();

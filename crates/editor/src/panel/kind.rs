@@ -1,4 +1,5 @@
-//! The kinds of a panel's fields, which are read from JSON schemas, and the values that the widgets of fields show.
+//! The kinds of a panel's fields, and the values that the widgets of the fields show. The kinds are read from JSON
+//! schemas.
 
 use op::ElementKind;
 use ron_tree::{Number, Value, ValueKind, parse, string_literal};
@@ -343,7 +344,8 @@ impl FieldValue {
     }
 }
 
-/// Returns the shortest text that is parsed to the same number, such as `2` or `0.5`.
+/// Returns the shortest text for a number, such as `2` or `0.5`. If the text is parsed, the result is exactly the same
+/// number.
 pub(crate) fn number(x: f64) -> String {
     if x.is_finite() && x.abs() < 1e15 && x.abs() >= 1e-5 || x == 0.0 {
         let text = format!("{x}");

@@ -48,7 +48,7 @@ pub struct PanelField {
     pub default: Option<String>,
     /// The value that the step gives to the parameter, as RON. `None` if the step does not set the parameter.
     pub value: Option<String>,
-    /// If the value is `arg("name")`, the name in the quotes, which is the name of a parameter of the recipe.
+    /// If the value is `arg("name")`, the name in the quotes. It refers to a parameter of the recipe.
     pub argument: Option<String>,
 }
 
@@ -71,7 +71,7 @@ impl PanelField {
 }
 
 impl Panel {
-    /// Creates the panel of an operation, in which no field has a value.
+    /// Creates the panel of an operation. No field of the new panel has a value.
     pub fn new(entry: &Entry) -> Self {
         let schema = entry.schema();
         Self {

@@ -188,7 +188,7 @@ fn parts_of(fields: &[PanelField], outer: &[String], value: &Value, whole: &str)
 }
 
 impl Part {
-    /// Returns the whole value as RON, after the value of this part was replaced by `new`. If `new` is `None`, the part
+    /// Replaces the value of this part with `new`, and returns the new whole value as RON. If `new` is `None`, the part
     /// is removed from the text, so that it has its default value. Returns `None` if the part cannot be written into
     /// the whole value.
     pub fn in_whole(&self, whole: &str, new: Option<&str>) -> Option<String> {

@@ -165,8 +165,8 @@ impl<'s> Target<'s> {
     }
 }
 
-/// Returns the surface point under a pixel that is nearest to the viewer, and the index in `targets` of the mesh
-/// instance with this point.
+/// Among the surface points under a pixel, finds the point that is nearest to the viewer. Returns this point, and the
+/// mesh instance that contains it (as an index into `targets`).
 pub(super) fn first_hit(targets: &[Target], pixel: DVec2) -> Option<(usize, RayHit)> {
     let hits = targets.iter().enumerate().filter_map(|(i, target)| {
         let (origin, direction) = target.view.ray(pixel);

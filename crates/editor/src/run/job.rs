@@ -1,5 +1,4 @@
-//! One run: reads and checks the recipe, finds the first step whose result is not known, and runs the recipe from this
-//! step on.
+//! One run: reads and checks the recipe, finds the first step that must run, and runs this step and all later steps.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -139,7 +138,8 @@ impl Job<'_> {
         }
     }
 
-    /// Returns the index of the first step that must run. The results of the first `known` steps are known.
+    /// Returns the index of the first step that must run. `known` is the number of steps before the first step whose
+    /// result is not known.
     fn first_step(&self, loaded: &Loaded, state: &RunState, known: usize) -> usize {
         if self.request.keep_outputs {
             return 0;
@@ -156,7 +156,7 @@ impl Job<'_> {
                 first = first.min(after);
             }
         }
-        // Expectations about outputs need the steps that write the outputs.
+        // An expectation about outputs can be checked only if the steps that write outputs run.
         let mut expectations = loaded.recipe.expectations.iter().zip(&state.expectations);
         let needs_files = |that: &Expectation| match that {
             Expectation::Output { .. } => true,

@@ -73,7 +73,7 @@ struct Waiting {
     watched: Vec<(PathBuf, String)>,
 }
 
-/// The time between two checks whether the watched files have changed.
+/// After this time, the watched files are checked for changes again.
 const LOOK: Duration = Duration::from_millis(250);
 
 /// The progress of a run.

@@ -27,8 +27,8 @@ pub struct RunState {
     pub parameters: Vec<Parameter>,
     /// The files that the recipe reads.
     pub inputs: Vec<PathBuf>,
-    /// The files, other than the recipe, on which the result depends. With each file, the list has the stamp that the
-    /// file had when the recipe was read: a text that changes when the file changes.
+    /// The files, other than the recipe, on which the result depends. Each file has its stamp: a text that describes
+    /// the state of the file when the recipe was read.
     pub(crate) watched: Vec<(PathBuf, String)>,
     /// The files that the run wrote. The list is empty if the request did not ask for outputs.
     pub written: Vec<PathBuf>,
@@ -131,8 +131,8 @@ impl RunState {
         matches!(self.status, Status::Running(_))
     }
 
-    /// Returns the range of indices of the steps that come from one entry of the list `steps` of the text. The range is
-    /// empty if no steps come from the entry, for example because it is disabled.
+    /// Returns which steps of the run come from the entry `item` of the list `steps` in the text, as a range of
+    /// indices. The range is empty if no steps come from the entry, for example because it is disabled.
     pub fn steps_of(&self, item: usize) -> std::ops::Range<usize> {
         let start = self.steps.partition_point(|step| step.item < item);
         start..self.steps.partition_point(|step| step.item <= item)

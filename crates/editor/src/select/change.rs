@@ -61,9 +61,8 @@ impl Picked {
         }
     }
 
-    /// Returns the picked elements without the elements that have a neighbor that is not picked, as the selection
-    /// `Shrink` does. Edges or faces are neighbors if they share a vertex. Vertices are neighbors if an edge joins
-    /// them.
+    /// Returns the picked elements whose neighbors are all picked, as the selection `Shrink` does. Edges or faces are
+    /// neighbors if they share a vertex. Vertices are neighbors if an edge joins them.
     #[must_use]
     pub fn shrunk(&self, mesh: &Mesh) -> Self {
         let outside = Self {

@@ -10,12 +10,12 @@ pub struct Picked {
     pub object: String,
     /// The elements.
     pub elements: Selected,
-    /// The half-edge that the view draws as an arrow and from which the keys walk, if there is one.
+    /// The chosen half-edge, if there is one. The view draws it as an arrow. Keys walk from it to other half-edges.
     pub half_edge: Option<HalfEdgeId>,
 }
 
 impl Picked {
-    /// Creates a set of elements, in which no half-edge is chosen.
+    /// Creates a set of elements without a chosen half-edge.
     pub fn new(object: &str, elements: Selected) -> Self {
         Self {
             object: object.to_owned(),

@@ -24,7 +24,7 @@ pub(super) struct Tail {
     pub(super) ends_line: bool,
 }
 
-/// Returns the rest of the line from the offset `from`, where an entry ends.
+/// Returns the part of a line after an entry. `from` is the offset at which the entry ends.
 pub(super) fn tail(text: &str, from: usize) -> Tail {
     let (mut comma, mut after_comma, mut after_comment) = (None, from, from);
     let found = |comma, end, ends_line| Tail {

@@ -47,7 +47,7 @@ if ! [ -d "$sysroot/lib/rustlib/$target" ]; then
     has=$("$work/rustc" -V 2> /dev/null | cut -d ' ' -f 2) || skip "the compiler does not run"
     [ "$(printf '%s\n' "$needs" "$has" | sort -V | head -n 1)" = "$needs" ] ||
         skip "the packaged compiler has version $has, expected at least $needs"
-    # A stable compiler builds its own standard library only with this variable.
+    # A stable compiler builds its own standard library only if this variable is set.
     export RUSTC_BOOTSTRAP=1
     build+=(-Zbuild-std=std,panic_abort)
     compiler=(env "RUSTC=$work/rustc" "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$linker")

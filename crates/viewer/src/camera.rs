@@ -184,8 +184,8 @@ impl Camera {
         self.target -= (x * pixels.x - y * pixels.y) * self.pixel_size(size.y);
     }
 
-    /// Multiplies the distance to the target by `factor`. Points at the depth of the target that are visible at the
-    /// pixel `at` stay at this pixel.
+    /// Multiplies the distance to the target by `factor`. If a point has the depth of the target and is visible at the
+    /// pixel `at`, it stays at this pixel.
     pub fn zoom(&mut self, factor: f64, at: DVec2, size: DVec2) {
         let [x, y, _] = self.axes();
         let d = (at - 0.5 * size) * self.pixel_size(size.y);
@@ -209,8 +209,8 @@ impl Camera {
     }
 
     /// Returns the rotation to camera space, and the projection. A point `p` has the camera coordinates
-    /// `rotation * (p - target) - (0, 0, distance)`. `radius` is the radius of a sphere around `center` that contains
-    /// everything that is drawn.
+    /// `rotation * (p - target) - (0, 0, distance)`. Everything that is drawn must be inside the sphere with this
+    /// `center` and `radius`.
     pub fn matrices(&self, size: DVec2, center: DVec3, radius: f64) -> (DMat4, DMat4) {
         let [x, y, z] = self.axes();
         let rotation = DMat4::from_mat3(DMat3::from_cols(x, y, z).transpose());

@@ -34,7 +34,7 @@ pub(crate) enum Change {
 /// the widget is a number field.
 const MAX_SLIDER: f64 = 1000.0;
 
-/// The largest number of parts of a value that are shown without a click.
+/// If a value has more parts than this, the parts are hidden until the user clicks.
 const MAX_OPEN_PARTS: usize = 4;
 
 /// Draws the widget of a parameter.
@@ -168,7 +168,7 @@ fn use_picked(ui: &mut Ui, field: &Field, change: &mut Option<Change>) {
     }
 }
 
-/// Draws the widget of a parameter whose widget is on the same line as its name.
+/// Draws the widget of a parameter on the same line as the name of the parameter.
 fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
     let of = field.of;
     let current = match field.live {

@@ -79,8 +79,8 @@ pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {
     }
 }
 
-/// Returns the column of each group. The groups are added one after another, the longest first, to the column that is
-/// shortest so far, so that the three columns become about equally long.
+/// Returns the column of each group. Starting with the longest group, each group goes into the column that is shortest
+/// so far. The three columns thereby become about equally long.
 fn columns_of(lengths: &[usize]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..lengths.len()).collect();
     order.sort_by_key(|&g| std::cmp::Reverse(lengths[g]));

@@ -1,9 +1,9 @@
-//! Converts pressed keys to the actions that they start in the whole window.
+//! Converts pressed keys to actions. These keys work in the whole window.
 
 use editor::{Action, Keys};
 use eframe::egui::{Context, Event, Id, Key, Modifiers, Popup};
 
-/// Removes the keys with an action from the input, and returns the actions.
+/// Finds the pressed keys that start an action, and removes them from the input. Returns the actions.
 ///
 /// While the user edits a text, only F1, Escape and keys with Ctrl have an effect. Even these keys have an effect only
 /// if their action is about the window or the file. While a widget other than the view has the focus, that widget

@@ -118,8 +118,9 @@ impl Prompt {
         (folder, name.to_string_lossy().into_owned())
     }
 
-    /// Draws the folders and the files of the folder of the path. For a file to open, only names that contain the
-    /// typed name are shown. A click writes the path of a folder or a file. Returns whether a file was double-clicked.
+    /// Draws the list of folders and files in the folder of the path. If the user chooses a file to open, only names
+    /// that contain the typed name are shown, until the user has typed the whole name of an entry. A click writes the
+    /// path of a folder or a file. Returns whether a file was double-clicked.
     fn list(&mut self, ui: &mut Ui) -> bool {
         let (folder, typed) = self.split();
         if self.listed.0 != folder {
@@ -170,8 +171,9 @@ fn row(ui: &mut Ui, entry: &Listed) -> Response {
     ui.add(Button::selectable(false, name).truncate())
 }
 
-/// Returns the folders in a folder, and then its files that fit the purpose, by name. Hidden files are left out. Empty
-/// if the folder cannot be read.
+/// Lists the content of a folder: the parent folder if there is one, then the folders, then the files that fit the
+/// purpose. Folders and files are sorted by name. Names that begin with a point are left out. If the folder cannot be
+/// read, the list has at most the parent folder.
 fn entries(folder: &Path, purpose: Purpose) -> Vec<Listed> {
     let listed = |entry: std::fs::DirEntry| {
         let path = entry.path();

@@ -190,7 +190,7 @@ fn message_at(editor: &editor::Editor, at: usize) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("\n\n"))
 }
 
-/// A word that can be completed: its bytes, and the texts to replace it with.
+/// A word that can be completed: the range of its bytes, and the texts that can replace it.
 struct Words {
     range: Range<usize>,
     texts: Vec<String>,

@@ -99,7 +99,7 @@ const scenes = names.map((name) => {
 });
 writeFileSync(join(out, "gallery/scenes.json"), JSON.stringify({ scenes, files }));
 
-// Some servers send compressed files, which are written here. The engine was compressed before.
+// Writes compressed copies of the files, because some servers send compressed files. The engine is already compressed.
 for (const name of ["main.js", "worker.js", "operations.html", "gallery/scenes.json"]) {
     writeFileSync(join(out, `${name}.br`), brotliCompressSync(readFileSync(join(out, name))));
 }

@@ -32,8 +32,8 @@ export function sizeText(bytes) {
             : bytes < 999e6 ? `${(bytes / 1e6).toPrecision(3)} MB` : `${(bytes / 1e9).toPrecision(3)} GB`;
 }
 
-/// Returns a function that calls `action` with a delay of the given number of milliseconds. Each further call of the
-/// returned function before `action` is called restarts the delay.
+/// Returns a function that calls `action` with a delay of the given number of milliseconds. If the returned function is
+/// called again during the delay, the delay restarts.
 export function debounced(milliseconds, action) {
     let timer;
     return (...values) => {

@@ -21,7 +21,7 @@ export class Engine {
     onEvent = () => {};
     /// Called when the scene and the outputs of the last run are lost.
     onLost = () => {};
-    /// The content of each file by its path. Outputs are not among them.
+    /// The content of each file by its path, without the outputs.
     files = new Map();
 
     /// Compiles the engine, and starts a worker. `download` has the response with the engine and the folder of its
@@ -159,7 +159,7 @@ export class Engine {
         return this.#call("read", path);
     }
 
-    /// Checks a recipe. The values `set` take precedence over the preset with the name `preset`.
+    /// Checks a recipe. The values in `set` take precedence over the values of the preset with the name `preset`.
     check(recipe, set, preset) {
         return this.#call("check", recipe, set, preset);
     }
@@ -177,8 +177,8 @@ export class Engine {
 
     /// Runs a recipe up to a step. `number` is the number of this step in the list that `check` returns, counted from
     /// 1. If the engine still has the result of a step, this step does not run again. Returns the result, and the
-    /// number of steps of the text that have run. The number of steps of the text can differ from `number`, because a
-    /// `Call`, `Repeat` or `If` is one step of the text, but can be several steps of the list or none.
+    /// number of steps of the text up to this step. This number can differ from `number`: a `Call`, `Repeat` or `If` is
+    /// one step of the text, but can be several steps of the list or none.
     async runTo(number, recipe, set) {
         let [written, most] = [1, outline(recipe).steps.length];
         while (written < most) {

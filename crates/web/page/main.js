@@ -22,8 +22,8 @@ let running = true;
 /// Whether a check, or a run, was requested while the engine was busy.
 let checkAgain = false;
 let runAgain = false;
-/// Whether changed inputs and added steps run the recipe. A recipe whose last run has not ended is only checked until
-/// the visitor runs it.
+/// Whether the recipe runs when an input changes or a step is added. If the last run of the recipe did not end, the
+/// recipe is only checked until the visitor runs it.
 let trusted = true;
 /// The step whose meshes are shown: `{ number, total, label, written }`, where `written` is the number of steps of the
 /// text that have run; `null` for the last step.

@@ -1,8 +1,8 @@
 // Finds the element of a mesh that is nearest to a click.
 
-/// Returns the element of a kind ("vertex", "edge" or "face") that is nearest to the point `at` of the page, among the
-/// elements of the face that has this triangle: `{ kind, number, vertices }`. `place` returns where a vertex is on the
-/// page.
+/// Finds the face that contains a triangle. Returns the element of this face that has the given kind ("vertex", "edge"
+/// or "face") and is nearest to the point `at` of the page, as `{ kind, number, vertices }`. `place` returns where a
+/// vertex is on the page.
 export function nearest(mesh, triangle, kind, at, place) {
     const face = mesh.faces[triangle];
     const corners = faceCorners(mesh, face, triangle);

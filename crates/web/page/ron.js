@@ -130,7 +130,7 @@ export function outline(text) {
     return { steps, expect };
 }
 
-/// Returns the recipe with only its first `count` steps as written, and without expectations.
+/// Returns the recipe with only the first `count` steps of its text, and without expectations.
 export function cut(text, count) {
     const { steps, expect } = outline(text);
     const removed = [[steps[count - 1][1], steps.at(-1)[1]], expect].filter(Boolean).sort((a, b) => b[0] - a[0]);
@@ -228,7 +228,7 @@ function token(stream, state) {
 /// The language for CodeMirror.
 export const ron = StreamLanguage.define({
     name: "ron",
-    // `open` has the indentation of the line of each open bracket.
+    // For each open bracket, `open` has the indentation of its line.
     startState: () => ({ comment: false, open: [] }),
     token,
     indent: ({ open }, after, cx) => (open.length ? open.at(-1) + (/^\s*[)\]}]/.test(after) ? 0 : cx.unit) : 0),

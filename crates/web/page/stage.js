@@ -47,8 +47,8 @@ export class Stage {
     }
 
     /// Shows the scene of a run. The camera and the picked elements stay if `keep` is true. `up` is the axis that
-    /// points upwards: "y", "z" or "auto". `step` is `{ number, total, label }` if the scene is the scene after a step
-    /// before the last step.
+    /// points upwards: "y", "z" or "auto". If the recipe was run only up to a step, `step` describes this step, as
+    /// `{ number, total, label }`.
     async show({ meshes, objects, quantities }, keep, up, step = null) {
         this.#enable(true);
         this.#shown = step;

@@ -21,9 +21,9 @@ export class View {
     #controls;
     #scene = new THREE.Scene();
     #content = new THREE.Group();
-    /// The meshes that were shown before.
+    /// The earlier meshes, which were shown before the current ones.
     #earlier = new THREE.Group();
-    /// The fraction of the width that shows the meshes that were shown before, from 0 to 1.
+    /// The fraction of the width, from 0 to 1, on which the earlier meshes are shown.
     #split = 0;
     #marks = new Marks();
     #center = new THREE.Vector3();
@@ -105,12 +105,13 @@ export class View {
         return this.#style.up;
     }
 
-    /// Whether there are meshes that were shown before, which `compare` shows.
+    /// Whether there are earlier meshes, which `compare` can show.
     get hasEarlier() {
         return this.#earlier.children.length > 0;
     }
 
-    /// Shows the meshes that were shown before on the left, on this fraction of the width.
+    /// Shows the earlier meshes in the left part of the view. `fraction` is the width of this part, as a fraction of
+    /// the whole width.
     compare(fraction) {
         this.#split = fraction;
         this.#draw();
@@ -239,8 +240,8 @@ export class View {
         return distance;
     }
 
-    /// Moves the current meshes by `move`, and keeps them as the meshes that were shown before. If `keep` is false,
-    /// drops the current and the earlier meshes instead.
+    /// Moves the current meshes by `move`, and keeps them as the earlier meshes. If `keep` is false, drops both the
+    /// current and the earlier meshes instead.
     #retire(keep, move) {
         for (const child of this.#earlier.children.flatMap((object) => object.children)) {
             child.geometry.dispose();

@@ -77,8 +77,8 @@ impl Kept {
         }
     }
 
-    /// Keeps the reports of a run. `checked` is the number of expectations that this run has checked, or that an
-    /// earlier run has checked and that still hold.
+    /// Keeps the reports of a run. `checked` is the number of expectations that this run has checked. An expectation
+    /// also counts as checked if an earlier run has checked it and it still holds.
     pub(crate) fn add(&mut self, keys: &StepKeys, outcome: &Outcome, checked: usize) {
         let keyed = keys.steps.iter().skip(outcome.first).zip(&outcome.steps);
         self.steps

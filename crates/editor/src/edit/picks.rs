@@ -103,9 +103,9 @@ impl Editor {
         };
     }
 
-    /// Whether a thread still searches for the selections that describe the picked elements. If several elements of a
-    /// large mesh are picked, the search takes long. Commands wait for the end of the search. To avoid waiting, a
-    /// window calls this function before it shows a selection.
+    /// Whether a thread still searches for the selections that describe the picked elements. If several elements are
+    /// picked, starts the search. In a large mesh, the search takes long. Commands wait for the end of the search. To
+    /// avoid waiting, a window calls this function before it shows a selection.
     pub fn is_searching(&mut self) -> bool {
         let is_one = self.picked.as_ref().is_some_and(|picked| picked.len() == 1);
         if !is_one && self.first_proposal.is_none() {

@@ -66,7 +66,7 @@ impl Job<'_> {
         });
     }
 
-    /// Runs the steps whose results are not known.
+    /// Runs the first step that must run and all later steps.
     fn run_rest(
         &self,
         loaded: &Loaded,

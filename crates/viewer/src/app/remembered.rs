@@ -22,9 +22,9 @@ pub(crate) struct Remembered {
     pub(crate) is_maximized: bool,
     /// Whether the window has the dark theme. If omitted, the window has the theme of the system.
     is_dark: Option<bool>,
-    /// The fractions of the height of the left side that the steps and the text occupy.
+    /// The heights of the steps and of the text, as fractions of the height of the left side.
     left: Option<[f32; 2]>,
-    /// The fractions of the width of the window that the left side, the view and the inspector occupy.
+    /// The widths of the left side, the view and the inspector, as fractions of the width of the window.
     columns: Option<[f32; 3]>,
 }
 

@@ -15,8 +15,8 @@ pub(super) const CHUNK: usize = 1 << 20;
 /// supports buffers of this size.
 const MAX_POINTS: usize = (128 << 20) / size_of::<[f32; 3]>();
 
-/// The bit of a corner in [`Chunk::triangles`] that says that the side from this corner to the next is an edge of the
-/// mesh.
+/// This bit of a corner in [`Chunk::triangles`] is set if the side from this corner to the next corner is an edge of
+/// the mesh.
 pub(super) const EDGE: u32 = 1 << 31;
 
 /// The encoded value for a point that has no normal.
@@ -45,7 +45,7 @@ pub(super) struct Chunk {
     pub(super) texture: Option<Arc<Texture>>,
     /// The position of each corner in the image of the texture. Empty without a texture.
     pub(super) uvs: Vec<[f32; 2]>,
-    /// The appearance, with the same fields as the uniform `Object` of the shader except for `offset`.
+    /// The appearance. It has all fields of the uniform `Object` of the shader, except for `offset`.
     pub(super) look: SurfaceLook,
 }
 
@@ -77,7 +77,7 @@ pub struct LineInstance {
     /// The positions of the ends of the line, relative to the center of the object. Equal for a dot.
     pub ends: [[f32; 3]; 2],
     /// Four numbers: the width in pixels, the opacity where the line is hidden, an offset towards the camera in pixels,
-    /// and an unused number. The line is moved by this offset in addition to the 3 pixels of every line.
+    /// and an unused number. The line is moved towards the camera by this offset plus 3 pixels.
     pub look: [f32; 4],
     /// sRGB color and opacity.
     pub color: [u8; 4],
@@ -130,8 +130,8 @@ fn byte(x: f32) -> u8 {
     (x.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// Converts a part of a drawing. If the part is the surface of a mesh, `mesh` is this mesh. The mesh is needed to find
-/// out which sides of triangles are edges of the mesh, and which are diagonals of polygons.
+/// Converts a part of a drawing. If the part is the surface of a mesh, `mesh` is this mesh. The mesh shows whether a
+/// side of a triangle is an edge of the mesh or a diagonal of a polygon.
 pub(super) fn surfaces(part: &Part, mesh: Option<&Mesh>, center: DVec3) -> Vec<Surface> {
     split(part, mesh, center, [CHUNK, MAX_POINTS])
 }

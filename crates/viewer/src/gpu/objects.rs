@@ -28,9 +28,9 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// Whether the buffers of both objects depend only on the color, the style and the geometry, and both have the same
-    /// color and style. Seams, materials and colors that show numbers must be absent, because the buffers would depend
-    /// on them too.
+    /// Whether the buffers of the two objects can differ only because of their geometry. Both objects must have the
+    /// same color and style. Neither object may have seams, materials or colors that show numbers, because the buffers
+    /// would depend on them too.
     pub(super) fn looks_like(&self, other: &Self) -> bool {
         self.color == other.color
             && self.style == other.style

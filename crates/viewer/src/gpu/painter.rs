@@ -41,7 +41,8 @@ struct ObjectUniform {
     look: SurfaceLook,
 }
 
-/// The distance between the uniforms of two objects in bytes. A multiple of every alignment that devices require.
+/// The distance in bytes from the start of one uniform to the start of the next. A multiple of every alignment that
+/// devices require.
 const STRIDE: u64 = 256;
 
 /// Draws a scene into a texture.
@@ -314,8 +315,8 @@ impl Painter {
         self.objects.iter().chain([&self.grid, &self.overlay])
     }
 
-    /// Returns a bind group with the values of each object and of each of its chunks, which are selected by dynamic
-    /// offsets.
+    /// Returns a bind group with the values of all objects and of their chunks. A dynamic offset selects the values of
+    /// one object or chunk.
     fn object_group(&self, camera: &Camera) -> wgpu::BindGroup {
         let mut uniforms: Vec<u8> = Vec::new();
         for uploaded in self.uploaded() {

@@ -110,7 +110,7 @@ fn has_attributes(mesh: &Mesh) -> bool {
         || mesh.get(mesh::MATERIAL).is_some()
 }
 
-/// Whether a face has a boundary edge or an edge that separates smooth parts, so that its vertices can have several
+/// Whether a face has a boundary edge or an edge that separates smooth parts. Vertices at these edges can have several
 /// normals.
 fn has_sharp_edge(mesh: &Mesh, f: FaceId, sharp: f64) -> bool {
     let limit = libm::cos(sharp.to_radians());
@@ -118,8 +118,7 @@ fn has_sharp_edge(mesh: &Mesh, f: FaceId, sharp: f64) -> bool {
     mesh.face_half_edges(f).any(|h| {
         mesh.face(h.twin()).is_none_or(|g| {
             let m = mesh.face_normal(g);
-            // An angle near the limit counts as sharp, so that the whole object is converted and not only its changed
-            // faces.
+            // An angle near the limit counts as sharp. The whole object is then converted, not only its changed faces.
             n.dot(m) <= limit + 1e-4
         })
     })

@@ -376,8 +376,8 @@ fn without_dialogs_of_the_system_a_list_shows_folders_and_files() {
     };
     assert!(window.harness.query_by_label("above.ron").is_some());
     click(&mut window, "models/");
-    // The list of the folder `models` contains neither `notes.txt`, which is no recipe, nor the files of the parent
-    // folder.
+    // The list of the folder `models` does not contain `notes.txt`, because that file is not a recipe. The list also
+    // does not contain the files of the parent folder.
     for name in ["notes.txt", "above.ron"] {
         assert!(window.harness.query_by_label(name).is_none(), "{name}");
     }

@@ -287,7 +287,7 @@ impl Document {
         let theirs = match recipe::Source::open_in(store, &self.path) {
             Ok(source) => source.text,
             Err(error) => {
-                // The other program has possibly not written the whole file yet. If the file has changed again at a
+                // The other program may still be writing the file. If the file has changed again at a
                 // later check, it is read again.
                 self.seen = seen;
                 return Some(FileChange::Unreadable(error.to_string()));

@@ -64,7 +64,7 @@ pub struct HalfEdgeInfo {
 /// A value of an attribute.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttributeInfo {
-    /// The kind of the element to which the value of the attribute belongs.
+    /// The kind of the element that has the value.
     pub domain: Domain,
     /// The name of the attribute.
     pub name: String,

@@ -409,7 +409,7 @@ impl Keys {
     }
 }
 
-/// Returns the name of a key, in which the modifiers have the order Ctrl, Alt, Shift.
+/// Sorts the modifiers of a key by the order Ctrl, Alt, Shift. Makes the first letter of the key's name upper case.
 fn normal(key: &str) -> String {
     let mut parts: Vec<&str> = key.split('+').map(str::trim).collect();
     let name = parts.pop().unwrap_or_default();

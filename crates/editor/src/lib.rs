@@ -9,10 +9,10 @@
 //! ```
 //!
 //! The recipe's text is the only state that an edit changes. An [`Editor`] changes the text, and a separate thread runs
-//! the recipe. To undo a change, the editor goes back to an earlier text in its history of texts. The editor keeps the
-//! scenes after the steps of recent texts in memory, so that usually no step has to run when a change is undone. This
-//! crate opens no window. A program that uses this crate draws the scenes that [`Editor`] returns, and passes the input
-//! of the user to the editor.
+//! the recipe. To undo a change, the editor goes back to an earlier text in its history of texts. For recent texts, the
+//! editor keeps the scenes after the steps in memory. Therefore, usually no step has to run when a change is undone.
+//! This crate opens no window. A program that uses this crate draws the scenes that [`Editor`] returns, and passes the
+//! input of the user to the editor.
 //!
 //! | task | items |
 //! | --- | --- |

@@ -99,8 +99,8 @@ impl Play {
     /// Returns one level of Loop subdivision as local edits. First, all edges are split. Then, the new edges that join
     /// an old and a new vertex are flipped. At the end, all vertices move. None of the edits is done yet.
     ///
-    /// Returns `None` if `after` is not the result of one level of Loop subdivision of all faces of `before`, or if
-    /// there are more than 10 000 edits.
+    /// Returns `None` if one level of Loop subdivision of all faces does not turn `before` into `after`. Also returns
+    /// `None` if there are more than 10 000 edits.
     pub fn of_loop_level(before: &Mesh, after: &Mesh) -> Option<Self> {
         if !is_loop_level(before, after) {
             return None;
@@ -290,8 +290,8 @@ impl Editor {
         Some((object.to_owned(), scene))
     }
 
-    /// If a step is one level of Loop subdivision that can be played, returns the name of the object, and its mesh
-    /// before and after the step.
+    /// If a step is one level of Loop subdivision that can be played, returns the name of the object and two meshes:
+    /// the object before and after the step.
     fn loop_level(&self, step: usize) -> Option<(String, [Arc<Mesh>; 2])> {
         let (object, before) = self.played_object(step)?;
         let after = self.scene_before(step + 1)?;
@@ -301,8 +301,8 @@ impl Editor {
     }
 }
 
-/// Whether `after` is the result of one level of Loop subdivision of all faces of `before`, with at most [`MAX_EDITS`]
-/// edits.
+/// Whether one level of Loop subdivision of all faces turns `before` into `after`, and can be played with at most
+/// [`MAX_EDITS`] edits.
 fn is_loop_level(before: &Mesh, after: &Mesh) -> bool {
     // Loop subdivision is played as one split for each edge, one flip for each triangle, and one edit that moves the
     // vertices. The splits add three edges inside each triangle. Of these three edges, the edge that ends at an old

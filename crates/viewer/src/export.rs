@@ -1,5 +1,5 @@
-//! Exports the edits of the player as an animation: draws one image in each frame of the window, and encodes the images
-//! in a separate thread.
+//! Exports the edits of the player as an animation. One image is drawn in each frame of the window. A separate thread
+//! encodes the images.
 
 use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;

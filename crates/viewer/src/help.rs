@@ -26,7 +26,7 @@ const MOUSE: [(&str, &str); 10] = [
     ("Drag a control point", "move it (curves and patches)"),
 ];
 
-/// The task to which the keys in `SIDES` are added.
+/// The help shows the keys in `SIDES` at the end of this task.
 const LOOK: &str = "Look";
 /// Keys that the table of actions does not have.
 const SIDES: [(&str, &str); 2] = [

@@ -46,8 +46,8 @@ Usage: meshwright-viewer [FILE]
 
 FILE is a model or a recipe (.ron). Press H in the window for the list of all keys.";
 
-/// Runs the program with these operations and arguments. Returns 0 if the window was closed, 1 if the window could not
-/// be opened or the graphics adapter was lost, and 2 if the arguments are wrong.
+/// Runs the program with these operations and arguments. Returns 0 if the window was closed, and 2 if the arguments are
+/// wrong. Returns 1 if the window could not be opened, or if the graphics adapter was lost.
 #[expect(
     clippy::print_stdout,
     clippy::print_stderr,

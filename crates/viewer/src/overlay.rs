@@ -14,7 +14,7 @@ use crate::gpu::{Overlay, OverlayLine};
 /// the picture.
 const MAX_ELEMENTS: usize = 300_000;
 
-/// The color and the sizes with which elements are drawn.
+/// The color and the sizes of drawn elements.
 #[derive(Clone, Copy)]
 struct Pen {
     color: [u8; 3],

@@ -119,8 +119,8 @@ impl Prompt {
     }
 
     /// Draws the list of folders and files in the folder of the path. If the user chooses a file to open, only names
-    /// that contain the typed name are shown, until the user has typed the whole name of an entry. A click writes the
-    /// path of a folder or a file. Returns whether a file was double-clicked.
+    /// that contain the typed name are shown. If the typed name is the name of an entry, all names are shown. A click
+    /// writes the path of a folder or a file. Returns whether a file was double-clicked.
     fn list(&mut self, ui: &mut Ui) -> bool {
         let (folder, typed) = self.split();
         if self.listed.0 != folder {

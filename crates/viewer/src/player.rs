@@ -24,7 +24,7 @@ pub(crate) struct Player {
     step: usize,
     /// The version of the text that the edits belong to.
     version: u64,
-    /// The scene before the step, in which the mesh of the object already has the edits that are done.
+    /// The scene before the step, but with a changed mesh: it already has the edits that are done.
     scene: Arc<Scene>,
     /// The number of edits per second.
     speed: f64,

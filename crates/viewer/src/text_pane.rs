@@ -197,9 +197,8 @@ struct Words {
 }
 
 /// Returns the completions of the word before the cursor. A word that begins with a capital letter is completed to
-/// names of variants if the word is in the value of a parameter that has variants. Otherwise, a word that begins with a
-/// capital letter is completed to names of operations. Other words are completed to names of the parameters of the
-/// step.
+/// names of operations. But in the value of a parameter with variants, it is completed to names of these variants. All
+/// other words are completed to names of the parameters of the step.
 fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     let none = Words {
         range: 0..0,

@@ -125,7 +125,7 @@ export interface Options {
 
 export interface RunOptions extends Options {
     /**
-     * Receives the events of the run. If the function returns false for an event `progress`, the run is canceled.
+     * Receives the events of the run. If the function returns false for a `progress` event, the run is canceled.
      * Progress is reported at most ten times per second.
      */
     onEvent?: (event: Event) => boolean | void;
@@ -152,22 +152,22 @@ export class Session {
     /** Checks a recipe without running it. */
     check(recipe: string, options?: Options): Checked;
     /**
-     * Checks and runs a recipe. The steps before the first step that has changed since the previous run usually do not
-     * run again. A step that writes a file counts as changed. If a file was written or removed after the previous run,
-     * all steps run. Blocks until the run ends, so a page should call this method in a worker. Throws `RuntimeError` if
-     * memory is exhausted. The engine cannot be used afterwards, so the page must then start a new worker.
+     * Checks and runs a recipe. The run usually starts at the first step that has changed since the previous run. A step
+     * that writes a file counts as changed. If a file was written or removed after the previous run, all steps run.
+     * Blocks until the run ends, so a page should call this method in a worker. Throws `RuntimeError` if memory is
+     * exhausted. The engine cannot be used afterwards, so the page must then start a new worker.
      */
     run(recipe: string, options?: RunOptions): Result;
     /**
-     * Renders the scene of the last run as a PNG file. `up` is the axis that points upwards. Defaults to `auto`: z if the scene
-     * stands on the plane z = 0 and not on y = 0, otherwise y. Throws if the picture is too large.
+     * Renders the scene of the last run as a PNG file. `up` is the axis that points upwards. Defaults to `auto`: z if
+     * the scene stands on the plane z = 0 and not on y = 0, otherwise y. Throws if the picture is too large.
      */
     picture(options?: { width?: number; height?: number; wireframe?: boolean; up?: "auto" | "y" | "z" }): Uint8Array;
     /** Returns the arrays of a mesh of the last run; `undefined` if no mesh has this name. */
     mesh(object: string): MeshArrays | undefined;
     /**
-     * Returns the placements of the instances of a mesh of the last run: for each instance, the map from the coordinates of the
-     * mesh to those of the scene, as 16 numbers column by column. A skinned mesh has the placement of its first joint.
+     * Returns the placement of each instance of a mesh of the last run. A placement is the matrix that maps the mesh to
+     * the scene, as 16 numbers, column by column. A skinned mesh has the placement of its first joint.
      */
     placements(object: string): Float64Array;
     /** Returns the quantities of the meshes of the last run that `colors` can show. */

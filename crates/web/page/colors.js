@@ -45,7 +45,7 @@ export function paint(group, found) {
     }
 }
 
-/// Returns sRGB colors as an attribute, in which each color is repeated `times` times.
+/// Converts sRGB colors to an attribute. Each color is repeated `times` times.
 function attribute(colors, times) {
     const light = new Uint16Array(times * colors.length);
     for (let i = 0; i < light.length; i += 1) {

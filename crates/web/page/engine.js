@@ -189,7 +189,7 @@ export class Engine {
         return { result: await this.run(cut(recipe, written), set), written };
     }
 
-    /// Returns the colors of a quantity of the meshes of the last run.
+    /// Returns colors that show a quantity of the meshes of the last run.
     colors(quantity) {
         return this.#call("colors", quantity);
     }

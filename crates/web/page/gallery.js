@@ -32,8 +32,8 @@ export async function namedFiles(recipe) {
 
 const decoded = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
-/// Fills the gallery. If the scenes cannot be loaded now, the gallery is filled when it is opened. `open` is called with
-/// the recipe that the visitor chooses, and its files: `{ name, recipe, up, files }`.
+/// Fills the gallery. If the scenes cannot be loaded now, the gallery is filled when it is opened. `open` is called
+/// with the recipe that the visitor chooses, and its files: `{ name, recipe, up, files }`.
 export function prepareGallery(open) {
     const fill = () => shipped().then((found) => show(found, open), (error) => {
         byId("scenes").replaceChildren(element("li", { class: "hint" },

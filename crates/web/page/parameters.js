@@ -105,7 +105,7 @@ export class Parameters {
     }
 }
 
-/// Returns the text with which an input shows a value.
+/// Returns the text that an input shows for a value.
 function written(type, value) {
     return type === "Int" || type === "Float" ? String(Number(value)) : value;
 }

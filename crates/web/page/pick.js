@@ -1,8 +1,8 @@
 // Finds the element of a mesh that is nearest to a click.
 
-/// Finds the face that contains a triangle. Returns the element of this face that has the given kind ("vertex", "edge"
-/// or "face") and is nearest to the point `at` of the page, as `{ kind, number, vertices }`. `place` returns where a
-/// vertex is on the page.
+/// Finds the face that contains a triangle, and the elements of this face that have the given kind ("vertex", "edge" or
+/// "face"). Returns the one that is nearest to the point `at` of the page, as `{ kind, number, vertices }`. `place`
+/// returns where a vertex is on the page.
 export function nearest(mesh, triangle, kind, at, place) {
     const face = mesh.faces[triangle];
     const corners = faceCorners(mesh, face, triangle);

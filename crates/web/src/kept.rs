@@ -34,8 +34,8 @@ impl Kept {
     pub(crate) fn start(&mut self, loaded: &Loaded, keys: &StepKeys) -> (usize, Scene) {
         let known = self.steps.iter().zip(&keys.steps);
         let known = known.take_while(|((before, _), now)| before == *now);
-        // A step that writes files always runs again: its files record the values of all parameters, but its key does
-        // not depend on all of them.
+        // A step that writes files always runs again. The files record the values of all parameters, but the key of the
+        // step does not depend on all of them.
         let forecast = &loaded.forecast.steps;
         let writes = forecast.iter().position(|step| step.n_outputs > 0);
         let first = known.count().min(writes.unwrap_or(usize::MAX));

@@ -213,8 +213,8 @@ impl Session {
         self.scene = outcome.scene.unwrap_or_default();
     }
 
-    /// Renders a picture of the scene of the last run, as the bytes of a PNG file. `size` is in pixels. `up` is the
-    /// axis that points upwards.
+    /// Renders the scene of the last run, and returns the bytes of a PNG file. `size` is the size in pixels. `up` is
+    /// the axis that points upwards.
     ///
     /// # Errors
     ///

@@ -12,8 +12,8 @@ use crate::text::{self, Outline};
 impl Editor {
     /// Adds expectations about the scene at the step cursor: how many objects, vertices, edges and faces the scene has,
     /// and its Euler characteristic. Also adds `Manifold` and `Closed` if these expectations hold. If the step cursor
-    /// is not at the end of the recipe, the step before the cursor gets an id, and the expectations are checked after
-    /// this step. Returns the expectations.
+    /// is not at the end of the recipe, the expectations are checked after the step before the cursor. If this step has
+    /// no id, it gets one. Returns the expectations.
     ///
     /// # Errors
     ///

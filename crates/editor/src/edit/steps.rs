@@ -79,9 +79,9 @@ impl Editor {
         self.edit(edits, "change a parameter", None)
     }
 
-    /// Previews another value of a step's parameter, for example while the user drags a slider: runs the recipe with
-    /// this value, but does not change the text. If a run with an older value is still in progress, it is canceled.
-    /// Afterwards, [`set_parameter`](Self::set_parameter) can write the value to the text, or
+    /// Previews another value of a step's parameter: runs the recipe with this value, but does not change the text. A
+    /// window calls this function while the user drags a slider. If a run with an older value is still in progress, it
+    /// is canceled. Afterwards, [`set_parameter`](Self::set_parameter) can write the value to the text, or
     /// [`end_preview`](Self::end_preview) can end the preview.
     ///
     /// # Errors
@@ -127,8 +127,8 @@ impl Editor {
         self.edit(edits, "change a parameter of the recipe", None)
     }
 
-    /// Previews another default value of one of the recipe's parameters, for example while the user drags a slider:
-    /// runs the recipe with this value, but does not change the text.
+    /// Previews another default value of a recipe's parameter: runs the recipe with this value, but does not change the
+    /// text. A window calls this function while the user drags a slider.
     ///
     /// # Errors
     ///

@@ -246,7 +246,7 @@ fn tuple(json: &Json) -> Option<FieldKind> {
     (2..=3).contains(&n).then_some(kind)
 }
 
-/// The value of a field, in the form in which a widget shows it.
+/// The value of a field, as a widget shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldValue {
     /// A number.

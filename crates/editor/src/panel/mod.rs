@@ -63,8 +63,8 @@ impl PanelField {
         self.value.as_deref().or(self.default.as_deref())
     }
 
-    /// Returns the current value in the form in which the widget shows it. Returns `None` if there is no value, or if
-    /// the widget cannot show the value, as with `arg(..)`.
+    /// Returns the current value as the widget shows it. Returns `None` if there is no value, or if the widget cannot
+    /// show the value. For example, it cannot show `arg(..)`.
     pub fn typed(&self) -> Option<FieldValue> {
         FieldValue::read(&self.kind, self.current()?)
     }

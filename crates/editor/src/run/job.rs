@@ -201,7 +201,7 @@ fn take_verdicts(
 ) {
     let ran = outcome.first..outcome.first + outcome.steps.len();
     for (i, placed) in recipe.expectations.iter().enumerate() {
-        // If a run ended early, the expectations after its last step have possibly not been checked.
+        // If a run ended early, expectations after its last step can be unchecked.
         let is_checked = match placed.after {
             None => is_whole,
             Some(after) => ran.contains(&after) && (is_whole || after + 1 < ran.end),

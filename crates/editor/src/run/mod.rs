@@ -68,8 +68,8 @@ struct Waiting {
     progress: Option<(u64, Progress)>,
     ends: bool,
     on_event: Option<Wake>,
-    /// The files whose changes are reported, and the stamp of each file: a text that describes the state of the file
-    /// and changes when the file changes.
+    /// The files whose changes are reported. Each file has its last known stamp: a text that describes the state of the
+    /// file.
     watched: Vec<(PathBuf, String)>,
 }
 

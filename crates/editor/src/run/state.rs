@@ -57,8 +57,8 @@ pub enum Status {
 /// A step of the run.
 #[derive(Clone, Debug)]
 pub struct StepState {
-    /// The label of the step. The label consists of the calls and repetitions around the step, and the id of the step
-    /// or, if it has no id, the name of its operation.
+    /// The label of the step. The label consists of the calls and repetitions around the step, and the id of the step.
+    /// If the step has no id, the label ends with the name of its operation.
     pub label: String,
     /// The name of the operation.
     pub name: String,
@@ -69,7 +69,7 @@ pub struct StepState {
     pub source: usize,
     /// The range of the text in which the name of the operation is written.
     pub span: Span,
-    /// The forecast of the numbers of elements and of the memory after the step.
+    /// The predicted numbers of elements and the predicted memory after the step.
     pub forecast: Option<StepForecast>,
     /// The result, once it is known.
     pub result: Option<Snapshot>,

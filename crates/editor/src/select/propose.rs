@@ -83,7 +83,7 @@ fn means(text: &str, scene: &Scene, object: &Object, picked: &Picked, stream: &s
     found.is_ok_and(|found| found == picked.elements)
 }
 
-/// A candidate: a selection that possibly selects exactly the picked elements.
+/// A candidate: a selection that must still be tested, because it may select other elements than the picked ones.
 struct Candidate {
     text: String,
     /// Whether the selection is written without `Expect`. A selection needs no `Expect` if it selects all elements, or
@@ -362,9 +362,9 @@ fn short_between(low: f64, high: f64) -> String {
     number(middle)
 }
 
-/// Returns an angle with which `Expand`, starting at the first picked face, can select the picked faces. The angle is
-/// greater than all angles between neighboring picked faces, and less than all angles at the border of the picked
-/// faces.
+/// Returns an angle for a selection `Expand` that starts at the first picked face and selects the picked faces. The
+/// angle is greater than all angles between neighboring picked faces, and less than all angles at the border of the
+/// picked faces.
 fn spread_angle(mesh: &Mesh, picked: &[bool]) -> Option<String> {
     let angle = mesh.dihedral_angles();
     let (mut inside, mut border) = (0.0_f64, f64::INFINITY);

@@ -177,7 +177,7 @@ fn split(
     renumbered.collect()
 }
 
-/// Maps the indices of the points of a part to the indices of the points of a chunk.
+/// Maps the point indices of a part to the point indices of a chunk.
 struct Renumbering {
     local: Vec<u32>,
     /// For each entry of `local`, the number of the chunk for which the entry is valid.

@@ -157,7 +157,7 @@ pub(super) struct Uploaded {
     pub(super) lines: Option<(wgpu::Buffer, u32)>,
     /// Whether the hidden parts of some lines are also drawn.
     pub(super) has_hidden: bool,
-    /// The buffer of the corners of colored triangles on surfaces, and the number of corners.
+    /// The corners of colored triangles on surfaces: their buffer and their number.
     pub(super) patches: Option<(wgpu::Buffer, u32)>,
 }
 

@@ -221,8 +221,8 @@ impl Painter {
                 line.hidden,
                 line.color,
             );
-            // The first line of the overlay is half a pixel farther from the camera than the other lines of the
-            // overlay, so that these lines cover the first line.
+            // The first line of the overlay is half a pixel farther from the camera than the other lines. These lines
+            // therefore cover the first line.
             instance.look[2] = 0.5 + if i > 0 { 0.5 } else { 0.0 };
             instance
         };

@@ -158,8 +158,8 @@ fn times_of_picks_on_a_million_triangles() {
     );
 }
 
-/// The time until the first frame of a window that opens a file with a million triangles, relative to the time of
-/// `meshwright info` for this file. Needs the program `meshwright` of the same profile.
+/// Measures how long a window with a file of a million triangles takes to draw its first frame. Compares this time with
+/// the time of `meshwright info` for the file. Needs the program `meshwright` of the same profile.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_opening_a_file_of_a_million_triangles() {

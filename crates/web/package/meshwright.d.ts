@@ -152,9 +152,9 @@ export class Session {
     /** Checks a recipe without running it. */
     check(recipe: string, options?: Options): Checked;
     /**
-     * Checks and runs a recipe. The run usually starts at the first step that has changed since the previous run. A step
-     * that writes a file counts as changed. If a file was written or removed after the previous run, all steps run.
-     * Blocks until the run ends, so a page should call this method in a worker. Throws `RuntimeError` if memory is
+     * Checks and runs a recipe. The run usually starts at the first step that has changed since the previous run. A
+     * step that writes a file counts as changed. If a file was written or removed after the previous run, all steps
+     * run. Blocks until the run ends, so a page should call this method in a worker. Throws `RuntimeError` if memory is
      * exhausted. The engine cannot be used afterwards, so the page must then start a new worker.
      */
     run(recipe: string, options?: RunOptions): Result;

@@ -65,9 +65,9 @@ function tooltips(describe) {
 export class Editor {
     #view;
 
-    /// Creates the editor. `onChange` is called after each change of the text, and `onMove` after the cursor or the text
-    /// has changed. `complete` finds completions. `describe(text, position, word)` returns the description of a word or
-    /// `null`. `run` is called when the keys that run the recipe are pressed.
+    /// Creates the editor. `onChange` is called after each change of the text, and `onMove` after the cursor or the
+    /// text has changed. `complete` finds completions. `describe(text, position, word)` returns the description of a
+    /// word or `null`. `run` is called when the keys that run the recipe are pressed.
     constructor(parent, { onChange, onMove, complete, describe, run }) {
         const extensions = [
             keymap.of([{ key: "Mod-Enter", run: () => { run(); return true; } }]),

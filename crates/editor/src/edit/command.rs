@@ -297,9 +297,9 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// Returns [`CommandError`] if the command cannot be applied. The text is then unchanged. The selection of a command
-    /// refers to elements of the scene at the step cursor. If this scene is not known, a command with a selection
-    /// cannot be applied.
+    /// Returns [`CommandError`] if the command cannot be applied. The text is then unchanged. The selection of a
+    /// command refers to elements of the scene at the step cursor. If this scene is not known, a command with a
+    /// selection cannot be applied.
     pub fn apply(&mut self, command: &Command) -> Result<(), CommandError> {
         if command.selection.is_some() && self.preview.is_none() && !self.view().is_current {
             return Err(CommandError::NoScene);

@@ -120,8 +120,8 @@ pub(crate) struct Assets<'a> {
     store: &'a dyn Store,
     /// The path of the model file.
     pub(crate) path: &'a Path,
-    /// The folders where the reader first looks for images. Then it looks in the folder of the model file. The paths
-    /// are relative to the folder of the model file.
+    /// The reader looks for images first in these folders, and then in the folder of the model file. The paths of these
+    /// folders are relative to the folder of the model file.
     pub(crate) image_folders: Vec<PathBuf>,
     seen: BTreeSet<FileDependency>,
 }

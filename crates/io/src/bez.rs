@@ -154,7 +154,7 @@ fn push_line(out: &mut Vec<u8>, numbers: &[f64]) {
     out.push(b'\n');
 }
 
-/// Reads the number of items (patches or control points), with which the file begins. Checks that the rest of the file
+/// Reads the number of items (patches or control points) at the beginning of a file. Checks that the rest of the file
 /// is long enough for these items.
 fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, Fault> {
     let (place, word) = cursor.next_word();

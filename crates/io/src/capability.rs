@@ -12,7 +12,7 @@ use crate::{Format, Rows, gltf};
 pub enum Storage {
     /// Nothing.
     Lost,
-    /// All values, some values or none. The values themselves determine which of them are stored.
+    /// All, some or none of the values. Which values are stored depends on their content.
     Partial,
     /// All finite values.
     Kept,
@@ -23,7 +23,7 @@ pub enum Storage {
 pub struct Stored<'a> {
     /// The format.
     pub format: Format,
-    /// For `.csv` files: the kind of elements in the table. Each element has a row.
+    /// For `.csv` files: the kind of elements that the rows list, for example vertices.
     pub rows: Rows,
     /// Whether the mesh has an attribute with this domain and name.
     pub has: &'a dyn Fn(Domain, &str) -> bool,
@@ -40,8 +40,8 @@ impl Stored<'_> {
     }
 
     /// Returns how much of an attribute the format stores. Only the type of `values` matters. If `values` is `None`,
-    /// the function assumes the usual type for this name. If there is no usual type and the result would depend on the
-    /// type, returns [`Storage::Partial`].
+    /// the name of the attribute usually determines the type: for example, `color` has four numbers. A name without a
+    /// known type can have any type. If the result then depends on the type, returns [`Storage::Partial`].
     pub fn storage(&self, domain: Domain, name: &str, values: Option<&Values>) -> Storage {
         let of_type = |values: &Values| self.storage_of(domain, name, values);
         if let Some(values) = values {
@@ -113,8 +113,8 @@ fn types() -> [Values; 6] {
     ]
 }
 
-/// Returns the usual type of attributes with this domain and name, as an empty list of values. Returns `None` if there
-/// is no usual type.
+/// Returns the type that attributes with this domain and name usually have, as an empty list of values. For example,
+/// the vertex attribute `color` has four numbers. Returns `None` if this function does not know the name.
 fn usual_type(domain: Domain, name: &str) -> Option<Values> {
     let [_, vec2, vec3, vec4, int, _] = types();
     match domain {

@@ -14,8 +14,8 @@ use mesh::parallel;
 /// because the computed area of a zero-area face is rarely exactly 0.
 const DEGENERATE_RATIO: f64 = 1e-14;
 
-/// The number of groups for the search for duplicate faces. The hash of a face determines its group, so duplicate faces
-/// are always in the same group. The groups are processed in parallel.
+/// To find duplicate faces, the faces are divided into this number of groups. The hash of a face determines its group,
+/// so duplicate faces are always in the same group. The groups are processed in parallel.
 const N_GROUPS: usize = 16;
 
 /// For each polygon, its index in the file; `None` if all polygons have the same indices as in the file.

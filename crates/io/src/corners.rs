@@ -10,8 +10,9 @@ use mesh::{FaceId, HalfEdgeId, Mesh, Values, VertexId};
 /// The value of a corner is compared with at most this number of distinct values at the same vertex.
 const MAX_COMPARED: usize = 64;
 
-/// The numbers of the values at the corners of a mesh. Two corners have the same number if they belong to the same
-/// vertex and have the same value. The numbers start at 0 and are assigned in the order of the faces and their corners.
+/// For each corner of a mesh, a number that stands for the value of the corner. Two corners have the same number if
+/// they belong to the same vertex and have the same value. The numbers start at 0 and are assigned in the order of the
+/// faces and their corners.
 #[derive(Debug)]
 pub(crate) struct CornerNumbers {
     /// For each half-edge of a face, the first half-edge that starts at the same vertex and has the same value.
@@ -28,8 +29,9 @@ impl CornerNumbers {
     /// time for a vertex with a million corners linear. If a vertex has more distinct values than this limit, a value
     /// can get a second number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
-        // Relaxed stores are sufficient, because only one task writes each entry. For `same`, this is the task that
-        // handles the origin of the half-edge. For `numbers`, it is the task that handles the number of the entry.
+        // Relaxed stores are sufficient, because only one task writes each entry. An entry of `same` is written by the
+        // task for the vertex at which the half-edge starts, and an entry of `numbers` by the task for the number that
+        // is stored there.
         let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);

@@ -75,7 +75,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
     Ok((out, joined.losses))
 }
 
-/// An object of the scene. `vertices` and `faces` are the total numbers of vertices and faces of the objects before it.
+/// An object of the scene. `vertices` and `faces` are the total numbers of vertices and faces of all earlier objects.
 struct Part {
     name: String,
     vertices: usize,

@@ -15,7 +15,8 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
     x.is_finite().then_some((x, length))
 }
 
-/// Parses the digits that begin at index `at`, but at most eight of them. Returns their value and their count.
+/// Parses up to eight digits, beginning at index `at`. Returns the integer that these digits represent, and the number
+/// of digits.
 ///
 /// Processes all digits at once as the bytes of one 64-bit word (Lemire, "Quickly parsing eight digits", 2018).
 #[inline]

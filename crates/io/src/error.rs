@@ -8,7 +8,7 @@ use store::StoreError;
 
 use crate::Format;
 
-/// The reason why a file could not be read. After this error, none of its content is available.
+/// The reason why a file could not be read. After this error, no content of the file is available.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {

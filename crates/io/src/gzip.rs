@@ -59,8 +59,7 @@ pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>
     Ok(out)
 }
 
-/// Returns at most `most` bytes from the beginning of the content of a file. The content of a `.gz` file is
-/// decompressed.
+/// Returns the beginning of the content of a file: at most `most` bytes. The content of a `.gz` file is decompressed.
 ///
 /// # Errors
 ///

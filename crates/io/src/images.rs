@@ -128,7 +128,7 @@ fn find(path: &str, assets: &mut Assets, room: &mut u64) -> Result<Image, String
     if media_type(&name, &bytes).is_none() {
         return Err("it is not an image".to_owned());
     }
-    // If the image was found relative to the folder of the model, its path is kept as written in the model.
+    // If the image was found in the folder of the model, the path is kept as it is written in the model.
     let path = if inside(path).as_ref() == Ok(&name) {
         path.to_owned()
     } else {

@@ -138,7 +138,8 @@ fn mark_copies(built: &mut BuildOutput, n_positions: usize) {
     built.mesh.insert_column(Domain::Vertex, column);
 }
 
-/// For each element of the mesh, the element of the input polygons from which it gets its attribute values.
+/// Each element of the mesh gets its attribute values from an element of the input polygons. For each element of the
+/// mesh, this struct stores the index of that input element.
 struct Sources {
     n_positions: usize,
     /// For each copy of a split vertex, the original vertex. Copies come after the original vertices.

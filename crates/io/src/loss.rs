@@ -24,7 +24,7 @@ pub struct Loss {
     pub reason: String,
 }
 
-/// Values of [`Loss::attribute`] that do not name an attribute, although the loss has a domain.
+/// Usually, [`Loss::attribute`] is the name of an attribute if the loss has a domain. These values are the exceptions.
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {

@@ -15,8 +15,8 @@ pub struct Peek {
     pub format: Format,
     /// The objects that would be read from the file, in order and with their names.
     pub objects: Vec<PeekObject>,
-    /// The nodes, skins and animations. Except for `.mws` files, the arrays of numbers are missing: skins have no
-    /// inverse bind matrices, and the inputs and outputs of samplers are not valid.
+    /// The nodes, skins and animations. The arrays of numbers are present only for `.mws` files. For all other files,
+    /// skins have no inverse bind matrices, and the inputs and outputs of samplers are not valid.
     pub graph: Graph,
     /// Content that reading would leave out, as far as this is known without building the objects. Examples are unused
     /// elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and material
@@ -138,7 +138,7 @@ pub struct PeekMesh {
     pub colors: bool,
     /// Whether faces have materials.
     pub materials: bool,
-    /// In the mesh, at most this number of joints has weights.
+    /// The maximum number of joints that have weights in the mesh.
     pub joints: u64,
     /// The number of morph targets.
     pub targets: u64,
@@ -151,7 +151,7 @@ pub struct PeekMesh {
     pub simple_corners: u64,
     /// Whether reading keeps all vertices of the file. Reading can still split some of them.
     pub keeps_vertices: bool,
-    /// Whether reading does not change the mesh at all. This is the case for `.mws` files.
+    /// True if reading does not change the mesh at all. This is the case for `.mws` files.
     pub is_exact: bool,
 }
 
@@ -171,8 +171,8 @@ pub struct PeekRanges {
 /// A face is checked for repeated vertices only if it has at most this number of corners.
 pub(crate) const MAX_COMPARED: usize = 16;
 
-/// Returns true if the words are indices that certainly refer to different elements. The words must differ from each
-/// other, be all positive or all negative, and have no leading zeros.
+/// Returns true if the words are indices that certainly refer to different elements. The words must be different, must
+/// be all positive or all negative, and must not have leading zeros.
 pub(crate) fn are_different(words: &[&[u8]]) -> bool {
     let is_index = |digits: &[u8]| {
         digits.first().is_some_and(|&first| first != b'0') && digits.iter().all(u8::is_ascii_digit)

@@ -27,8 +27,8 @@ pub struct Polygons {
 /// The prefix of tags that mark the faces of an object.
 pub(crate) const OBJECT_TAG: &str = "o:";
 
-/// Returns the maximum number of groups, objects or solids of a file that become tags of a mesh with `n_faces` faces.
-/// The number is limited because a tag needs one byte for each face.
+/// A reader converts the groups, objects or solids of a file to tags. Returns the maximum number of such tags for a
+/// mesh with `n_faces` faces. The number is limited because a tag needs one byte for each face.
 pub(crate) fn most_tags(n_faces: usize) -> usize {
     const MOST: usize = 4096;
     const MOST_BYTES: usize = 1 << 28;

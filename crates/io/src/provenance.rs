@@ -65,8 +65,9 @@ fn of_document(json: &[u8]) -> Option<String> {
 /// an uncompressed `iTXt` chunk (a chunk for international text).
 ///
 /// A chunk consists of its length, four letters, the data, and a checksum. The data of an `iTXt` chunk consists of the
-/// keyword, two bytes about compression, the language, the translated keyword, and the text, separated by zero bytes
-/// (W3C, "Portable Network Graphics (PNG) Specification", 3rd edition, 2025, §11.3.3.4).
+/// keyword, two bytes about compression, the language, the translated keyword, and the text. A zero byte follows the
+/// keyword, the language and the translated keyword. Source: W3C, "Portable Network Graphics (PNG) Specification", 3rd
+/// edition, 2025, §11.3.3.4.
 fn of_png(bytes: &[u8]) -> Option<String> {
     let mut rest = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
     loop {

@@ -69,8 +69,8 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.at
     }
 
-    /// Whether the remaining bytes are enough for `n` items of `words_each` words each. A word takes at least one byte,
-    /// and all words except the last need a separator.
+    /// Whether the remaining bytes are enough for `n` items, each with `words_each` words. A word takes at least one
+    /// byte, and all words except the last need a separator.
     pub(crate) fn has_room(&self, n: usize, words_each: usize) -> bool {
         let least = n.checked_mul(2 * words_each);
         least.is_some_and(|least| least <= self.remaining() + 1)
@@ -129,7 +129,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Reads the next word of the line. The word is empty at the end of the line and before a comment.
+    /// Reads the next word of the line. Returns an empty word at the end of the line and before a comment.
     pub(crate) fn argument_or_nothing(&mut self) -> (TextPosition, &'a [u8]) {
         self.argument().unwrap_or((self.place(), b""))
     }
@@ -148,7 +148,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Reads the next word, which can be on a later line. The word is empty at the end of the text.
+    /// Reads the next word, which can be on a later line. Returns an empty word at the end of the text.
     pub(crate) fn next_word(&mut self) -> (TextPosition, &'a [u8]) {
         self.skip_white();
         (self.place(), self.word())

@@ -22,9 +22,9 @@ const CHUNK: usize = 1 << 15;
 const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
 
-/// Counts the vertices that reading the written file would merge with an earlier vertex. The reader of the format must
-/// merge vertices with equal positions. Vertices without a face are not counted, because they are not written.
-/// Positions are compared after they are rounded to 32 bits.
+/// Counts the vertices that a reader of the written file would merge with an earlier vertex. Use this function only for
+/// formats whose reader merges vertices with equal positions. Vertices without a face are not counted, because they are
+/// not written. Positions are compared after they are rounded to 32 bits.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
 }
@@ -36,7 +36,7 @@ pub(crate) fn n_merged_as(mesh: &Mesh, round: impl Fn(DVec3) -> DVec3 + Sync) ->
     used.len() - weld(places).0.len()
 }
 
-/// Returns the vertices with faces. Copies that a reader made by splitting vertices are left out.
+/// Returns the vertices that belong to at least one face. Copies that a reader made by splitting vertices are left out.
 fn vertices_with_faces(mesh: &Mesh) -> Vec<usize> {
     let file = FileVertices::of(mesh);
     parallel::filter(mesh.n_vertices(), |v| {
@@ -76,7 +76,7 @@ pub(crate) fn n_merged_if_equal(
 pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     let mut vertex_of = firsts(&positions);
     let is_first = |i: usize, first: u32| i == first as usize;
-    // For each chunk, the number of positions that are the first occurrence of their value in the whole list.
+    // For each chunk, the number of its positions that do not occur earlier in the whole list.
     let counts = parallel::consume(vertex_of.chunks(CHUNK), |chunk, firsts| {
         let own = (chunk * CHUNK..).zip(firsts);
         own.filter(|&(i, &first)| is_first(i, first)).count()

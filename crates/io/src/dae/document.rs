@@ -263,7 +263,7 @@ pub(super) fn is(node: Node, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name
 }
 
-/// Returns the index of an element in its file, which is used as a key.
+/// Returns the index of an element in its file. The index is used as a key.
 pub(super) fn number_of(node: Node) -> u32 {
     node.id().get()
 }
@@ -392,8 +392,8 @@ fn word_place(node: Node, word: &str) -> TextPosition {
     }
 }
 
-/// Creates an error at word `k` of `lists`. The words are numbered from 0, through the texts of all elements in
-/// `lists`.
+/// Creates an error at word `k` of `lists`. The words of all elements in `lists` are numbered consecutively, beginning
+/// with 0.
 pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {

@@ -85,8 +85,8 @@ pub(super) fn placed<'a>(
 /// Traverses the nodes of a scene with an explicit stack, because nodes can be nested very deeply.
 struct Walk<'a, 'd> {
     document: &'d Document<'a>,
-    /// The number of further elements that the walk is allowed to visit. The walk is limited because nested instances
-    /// in a small file can cause a huge number of visits.
+    /// The number of elements that can still be visited. This number is limited because nested instances in a small
+    /// file can cause a huge number of visits.
     steps: usize,
     /// The nodes from the root to the current node.
     ancestors: BTreeSet<u32>,

@@ -151,8 +151,8 @@ impl Reader<'_> {
         }
         let used = kind.multiplicity().min(N);
         let size = component.size();
-        // While the elements are read, only the existence of a non-finite value is recorded. If there is one, the
-        // elements are read again to find its index.
+        // While the elements are read, a flag records only whether any value is non-finite. If so, the elements are
+        // read again to find the index of the first such value.
         let has_non_finite = AtomicBool::new(false);
         let general = |bytes: &[u8]| {
             let mut vector = [fill; N];

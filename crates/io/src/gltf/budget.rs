@@ -20,7 +20,7 @@ const COMPRESSED: u64 = 4;
 #[derive(Default)]
 pub(super) struct Budget {
     left: Cell<u64>,
-    /// The total size in bytes that further decoded views are allowed to have.
+    /// The second budget: the total size in bytes that further decoded views are allowed to have.
     inflation: Cell<u64>,
 }
 
@@ -73,8 +73,8 @@ impl Budget {
         Ok(())
     }
 
-    /// Subtracts the decoded size of a compressed view from the budget, and returns this size as a `usize`. The total
-    /// size of all decoded views also has a second, lower limit, because a stream of zeros can be a thousand times
+    /// Subtracts the decoded size of a compressed view from the budget, and returns this size as a `usize`. A second,
+    /// smaller budget limits the total size of all decoded views, because a stream of zeros can be a thousand times
     /// smaller than its decoded data. Files with real data do not reach this limit. `pointer` is the JSON pointer of
     /// the part that needs the memory.
     ///

@@ -217,8 +217,8 @@ pub(super) struct Directions {
     semantic: Semantic,
     /// Returns the accessor that stores how a morph target changes the normals or tangents.
     changes: fn(&MorphTarget) -> Option<&Index<Accessor>>,
-    /// Returns the name of the mesh attribute that stores the normals or tangents changed by the morph target with this
-    /// index.
+    /// Returns the name of the mesh attribute that stores the normals or tangents after the morph target with this
+    /// index is applied.
     name: fn(usize) -> String,
     rule: Rule,
     /// The indices of the morph targets that change the normals or tangents, in ascending order.

@@ -79,7 +79,8 @@ impl Document {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // The budget also covers the data that the reader stores for each buffer view in addition to the parsed view.
+        // For each buffer view, the reader stores more than the parsed view. The memory for this additional data is
+        // subtracted from the budget here.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
@@ -340,7 +341,7 @@ fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Resu
     };
     let list = list(json, key)?;
     budget.spend((list.len() * size_of::<T>()) as u64, &format!("/{key}"))?;
-    // Only the size of this capacity was subtracted from the memory budget, so the list must not grow beyond it.
+    // Only the memory for this capacity was subtracted from the budget, so the list must not grow beyond this capacity.
     let mut pieces = Vec::with_capacity(list.len());
     for numbered in list.iter().enumerate() {
         pieces.push(piece(numbered)?);

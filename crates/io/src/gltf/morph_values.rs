@@ -41,9 +41,9 @@ impl<'a> ValueChanges<'a> {
         self.columns.iter().map(|&(semantic, t)| name(semantic, t))
     }
 
-    /// Reads the changes of a primitive with `n` vertices. Returns a column for each pair of an attribute and a morph
-    /// target in `columns`. If the target does not change the attribute in this primitive, the column is zero. `here`
-    /// is the location of the primitive, for errors.
+    /// Reads the changes of a primitive with `n` vertices. Each entry of `columns` is an attribute with the index of a
+    /// morph target. Returns a column of values for each entry. If the target does not change the attribute in this
+    /// primitive, the column is zero. `here` is the location of the primitive, for errors.
     ///
     /// # Errors
     ///

@@ -23,7 +23,8 @@ pub(super) struct PlacedMesh {
     /// The transform that the reader applies to the points of the mesh. This transform is the identity if the scene
     /// keeps the nodes, because the nodes then place the object.
     pub(super) to_scene: DAffine3,
-    /// The node of the file whose skin and morph weights are applied to the points.
+    /// The index (in the file) of the node whose skin and morph weights are applied to the points. `None` if the scene
+    /// keeps the nodes.
     pub(super) posed_by: Option<usize>,
     /// The number of nodes that reference the object.
     pub(super) instances: u64,
@@ -189,8 +190,8 @@ fn baked(
     Ok(placed)
 }
 
-/// Returns an object for each mesh that nodes reference, in the order of the meshes. The object gets the name of its
-/// node or, if several nodes reference the mesh, of the mesh.
+/// Returns an object for each mesh that nodes reference, in the order of the meshes. If several nodes reference a mesh,
+/// its object gets the name of the mesh, otherwise the name of the node.
 fn shared(
     document: &Document,
     nodes: &[SceneNode],

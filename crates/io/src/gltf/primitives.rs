@@ -291,9 +291,9 @@ impl Triangles {
         Ok((first, count))
     }
 
-    /// Counts the attributes that earlier primitives have and a primitive lacks. `n` is the number of vertices of the
-    /// primitive, and `own` contains its attributes. The caller sets the missing values to zero. Their size is
-    /// subtracted from the memory budget.
+    /// Counts the attributes that earlier primitives of the mesh have, but that this primitive does not have. `n` is
+    /// the number of vertices of this primitive, and `own` contains its attributes. The caller sets the missing values
+    /// to zero. The size of these values is subtracted from the memory budget.
     ///
     /// # Errors
     ///

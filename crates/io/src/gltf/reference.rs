@@ -24,7 +24,7 @@ pub(super) fn get<'a, T>(
     })
 }
 
-/// Parses an index. `pointer` is its location.
+/// Parses an index. `pointer` is the location of the index.
 ///
 /// # Errors
 ///

@@ -147,7 +147,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
             extras: json.extras.as_ref().map(ToString::to_string),
             ..Animation::default()
         };
-        // The index in `animation` of each sampler that was read. The key is the index of the sampler in the file.
+        // For each sampler that was read, its index in `animation`. The key is the index of the sampler in the file.
         let mut samplers: BTreeMap<usize, usize> = BTreeMap::new();
         for channel in &json.channels {
             let property = match channel.target.path.as_str() {
@@ -186,7 +186,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         Ok(animation)
     }
 
-    /// Reads a sampler. Returns `None` if its times are invalid, or if it has a wrong number of values.
+    /// Reads a sampler. Returns `None` if the sampler has invalid times or a wrong number of values.
     fn sampler(
         &mut self,
         json: &AnimationJson,

@@ -1,5 +1,5 @@
-//! Splits vertices along seams. glTF has a separate vertex for each combination of normal, texture coordinates,
-//! color and so on around a vertex of the mesh.
+//! Splits vertices along seams. If the corners of a vertex have different values (normals, texture coordinates, colors
+//! and so on), glTF needs a separate vertex for each distinct combination of values.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -79,7 +79,7 @@ impl Split {
     }
 }
 
-/// Adds a loss for the values of a stream that are changed because glTF does not allow them.
+/// Adds a loss for those values of `stream` (one attribute) that the writer changes because glTF does not allow them.
 pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: &mut Losses) {
     let changed = parallel::count(split.n, |i| {
         let (v, h) = split.corner(mesh, i);

@@ -13,8 +13,8 @@ use crate::Format;
 use crate::file_vertices::is_mark;
 use crate::loss::Losses;
 
-/// An attribute of a mesh in the form that glTF requires. Numbers have 32 bits, normals have length 1, the v coordinate
-/// points down, and colors are from 0 to 1.
+/// A stream: an attribute of a mesh in the form that glTF requires. Numbers have 32 bits, normals have length 1, the v
+/// coordinate points down, and colors are from 0 to 1.
 pub(super) struct Stream<'a> {
     pub(super) semantic: Semantic,
     pub(super) kind: Type,
@@ -28,12 +28,12 @@ pub(super) struct Stream<'a> {
 #[derive(Clone, Copy)]
 enum Meaning<'a> {
     Normal,
-    /// The normals of a morph target minus the normals of the mesh. The two values of the variant are the domain and
-    /// the column of the normals of the mesh.
+    /// The normals of a morph target minus the normals of the mesh. The variant contains the column with the normals of
+    /// the mesh, and the domain of this column.
     NormalDelta(Domain, &'a Column),
     Tangent,
-    /// The tangents of a morph target minus the tangents of the mesh. The value of the variant is the corner column
-    /// with the tangents of the mesh.
+    /// The tangents of a morph target minus the tangents of the mesh. The variant contains the corner column with the
+    /// tangents of the mesh.
     TangentDelta(&'a Column),
     Uv,
     UvDelta,
@@ -111,8 +111,8 @@ pub(super) fn streams<'a>(
     streams
 }
 
-/// Returns the streams of the normals or the tangents of morph targets. glTF stores the normals and tangents of a morph
-/// target as differences from the normals and tangents of the mesh.
+/// Returns the streams (attributes as glTF stores them) with the normals or the tangents of morph targets. glTF stores
+/// the normals and tangents of a morph target as differences from the normals and tangents of the mesh.
 fn deltas<'a>(
     mesh: &'a Mesh,
     meaning: Meaning<'a>,
@@ -146,8 +146,9 @@ fn deltas<'a>(
     deltas
 }
 
-/// Returns the streams of the changes that morph targets make to texture coordinates and colors. `streams` contains the
-/// streams of the mesh itself, because in glTF, a morph target can change only attributes that the mesh has.
+/// Morph targets can change texture coordinates and colors. Returns a stream for each such change. `streams` contains
+/// the streams of the mesh itself. It is needed because in glTF, a morph target can change only attributes that the
+/// mesh has.
 fn value_deltas<'a>(
     mesh: &'a Mesh,
     streams: &[Stream<'a>],
@@ -183,7 +184,8 @@ fn value_deltas<'a>(
     deltas
 }
 
-/// Whether a column has the weights of a joint or the deltas of a morph target, both of which are written separately.
+/// Whether a column contains the weights of a joint or the deltas of a morph target. Such columns are written
+/// separately.
 fn is_deformer(domain: Domain, column: &Column) -> bool {
     let is_joint = matches!(column.values, Values::Float(_)) && joint_of(&column.name).is_some();
     let is_morph = matches!(column.values, Values::Vec3(_)) && morph_of(&column.name).is_some();
@@ -221,15 +223,15 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
 }
 
 impl Stream<'_> {
-    /// Whether this stream belongs to the mesh itself instead of a morph target, and contains the attribute with this
-    /// name.
+    /// Whether this stream contains the attribute with this name, and belongs to the mesh itself instead of a morph
+    /// target.
     fn is_named(&self, name: &str) -> bool {
         self.target.is_none() && attribute_name(&self.semantic).as_deref() == Some(name)
     }
 
     /// Returns the value that is written for a corner, and a flag. If glTF does not allow the value of the mesh, a
-    /// different value is written, and the flag is false. The caller uses only as many of the four components as the
-    /// kind of the stream has.
+    /// different value is written, and the flag is false. The value always has four components. The caller drops those
+    /// that the stream does not need.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let value = value(self.domain, self.column, v, h);
         let [x, y, ..] = value;

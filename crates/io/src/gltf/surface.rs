@@ -118,8 +118,8 @@ pub(super) struct ImageJson {
 
 type Filters = (Option<Filter>, Option<Filter>);
 
-/// The code of each texture filter in glTF, with the filter within a mipmap level and the filter between mipmap levels.
-/// Only the first two codes are valid for magnification.
+/// The codes of texture filters in glTF. Each code stands for two filters: one within a mipmap level, and one between
+/// mipmap levels. Only the first two codes are valid for magnification.
 pub(super) const FILTERS: [(u32, Filters); 6] = [
     (9728, (Some(Filter::Nearest), None)),
     (9729, (Some(Filter::Linear), None)),

@@ -15,7 +15,8 @@ pub(super) struct Reader<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a [Cow<'a, [u8]>],
     pub(super) budget: &'a Budget,
-    /// For each view, its decoded bytes. Only compressed views are decoded, when they are used for the first time.
+    /// For each view, its decoded bytes. A compressed view is decoded when it is used for the first time. Other views
+    /// are not decoded.
     pub(super) decoded: Vec<OnceCell<Vec<u8>>>,
 }
 
@@ -82,8 +83,8 @@ impl Reader<'_> {
         })
     }
 
-    /// Returns `count` rows of `size` bytes of a view. The first row begins at byte `offset` of the view, and the rows
-    /// have the stride of the view.
+    /// Returns `count` rows of a view. A row has `size` bytes. The first row begins at byte `offset` of the view, and
+    /// the rows have the stride of the view.
     pub(super) fn rows(
         &self,
         index: usize,

@@ -234,8 +234,8 @@ fn morphs<'a>(
         losses.add(None, "morph targets", in_file, reason);
         return Vec::new();
     };
-    // The number of morph targets is at most the number of columns or weights. Otherwise, a single column with a large
-    // number in its name would give many targets.
+    // The number of morph targets is limited to the number of columns or the number of weights, whichever is larger.
+    // Without this limit, a single column with a large number in its name would give many targets.
     let n = last.max(in_file).min(columns.len().max(in_file));
     let mut morphs = vec![None; n];
     let mut unnumbered = 0;

@@ -42,7 +42,8 @@ pub(super) struct Writer<'a> {
     pub(super) pieces: Vec<Piece<'a>>,
     materials: MaterialWriter,
     pub(super) quantizer: Quantizer<'a>,
-    /// How each array that can be compressed is encoded. The key is the index of the view of the array.
+    /// For each array that can be compressed, how its elements are encoded. The key is the index of the view of the
+    /// array.
     arrays: BTreeMap<usize, Array>,
     compression: Option<Compression>,
 }
@@ -148,7 +149,7 @@ impl<'a> Writer<'a> {
             for (key, value) in members {
                 match (&mut part[&key], value) {
                     // If the extras of `asset` already contain the provenance, the extras from the graph are added to
-                    // it.
+                    // these extras.
                     (Value::Object(extras), Value::Object(more)) => extras.extend(more),
                     (place, value) => *place = value,
                 }

@@ -112,7 +112,7 @@ impl<'a> Writer<'a> {
         (expected > 0 && expected == graph.arrays[sampler.output].len()).then_some(kind)
     }
 
-    /// Returns the accessor of an array, and adds it if it does not exist yet.
+    /// Returns the accessor of an array. Adds the accessor if it does not exist yet.
     fn numbers(&mut self, array: usize, numbers: &'a [f32], kind: Type) -> usize {
         let key = (array, kind.multiplicity(), numbers.len());
         if let Some(&known) = self.number_accessors.get(&key) {

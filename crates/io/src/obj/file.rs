@@ -26,7 +26,7 @@ pub(super) struct ObjFile {
     pub(super) normals: Vec<DVec3>,
     /// Polygon i has the corners from `offsets[i]` up to, but not including, `offsets[i + 1]`.
     pub(super) offsets: Vec<u32>,
-    /// Three lists: the indices of the positions, of the texture coordinates and of the normals of the corners. A
+    /// Three lists with an index for each corner: the indices of positions, of texture coordinates, and of normals. A
     /// missing index is [`NONE`], and a list in which all indices are missing is empty.
     pub(super) corners: [Vec<u32>; 3],
     /// The offsets of the polylines in `line_corners`. Polyline i has the vertices

@@ -142,8 +142,8 @@ fn column<'a>(
     })
 }
 
-/// Converts the ends of the faces or polylines of all parts to offsets in the joined list of corners. The offsets are
-/// the start of each face or polyline, followed by the end of the last one.
+/// Each part stores where its faces or polylines end. Converts these ends to offsets in the joined list of corners. The
+/// offsets are the start of each face or polyline, followed by the end of the last one.
 fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -> Vec<u32> {
     let mut pieces: Vec<Vec<u32>> = pieces.map(std::mem::take).collect();
     // The first face or polyline starts at 0.

@@ -120,8 +120,8 @@ impl Library {
         self.indices.push(places);
     }
 
-    /// Returns the index of a material in `materials`, and adds the material if no equal material exists yet. If a
-    /// different material already has its name, the new material is renamed.
+    /// Returns the index of a material in `materials`, and adds the material if no equal material exists yet. If the
+    /// name already belongs to a different material, the new material is renamed.
     fn index_of(&mut self, material: &Material, losses: &mut Losses) -> usize {
         let mut base = fit_line(&material.name).into_owned();
         if base.is_empty() || base.as_bytes() == NO_MATERIAL {

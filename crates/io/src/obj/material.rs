@@ -117,8 +117,8 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     (names, rest.split_whitespace().count())
 }
 
-/// At most this number of blanks in a line is tried as the end of a file name. The last blank of the line is tried
-/// first.
+/// The maximum number of blanks at which the reader tries to end a file name, beginning with the last blank of the
+/// line.
 const MAX_BLANKS: usize = 16;
 
 /// Reads the materials of one library. Lines that cannot be read are left out, with a note.

@@ -27,8 +27,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Returns a flag for each column of corner indices, which is true if the column has entries. The columns are
-    /// positions, texture coordinates and normals.
+    /// Returns a flag for each column of corner indices: true if the column has entries. The columns are positions,
+    /// texture coordinates and normals.
     pub(super) fn columns(&self) -> [bool; 3] {
         self.part.corners.each_ref().map(|column| column.len() > 0)
     }

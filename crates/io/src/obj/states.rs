@@ -18,8 +18,8 @@ pub(super) struct FaceState<'a> {
     pub(super) smoothing: i32,
 }
 
-/// The state at the end of the text of an object: the counts of the elements that are defined, the material and the
-/// smoothing group. No groups are set there.
+/// What applies at the end of the text of an object: the material, the smoothing group, and the numbers of elements
+/// that are defined so far. At this point, no groups are set.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TextState {
     pub(super) counts: Counts,

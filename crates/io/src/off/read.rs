@@ -110,7 +110,7 @@ fn count(cursor: &mut Cursor, what: &str) -> Result<usize, Fault> {
     parsed(word).ok_or_else(expected)
 }
 
-/// Checks that the rest of the file is long enough for `n` items of `words` words each.
+/// Checks that the rest of the file is long enough for `n` items, each with `words` words.
 fn check_room(cursor: &Cursor, n: usize, words: usize, what: &str) -> Result<(), Fault> {
     if cursor.has_room(n, words) {
         return Ok(());

@@ -174,7 +174,8 @@ fn for_blocks<V: Send>(
     });
 }
 
-/// The offsets at which the lists of the rows start in the items, and the items of all lists.
+/// Two arrays. The second one contains the items of the lists of all rows, one list after the other. The first one
+/// contains the offset in the second array at which each list starts, followed by the total number of items.
 type Lists = (Vec<u32>, Vec<u32>);
 
 /// Reads the lists of a table as vertex indices. Returns the offsets and the indices.

@@ -126,8 +126,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns the number of items of a list if every list of the element has the same length in all rows. Otherwise,
-    /// returns `None`.
+    /// Returns the number of items in the lists of a property, if every list of the element has the same length in all
+    /// rows. Otherwise, returns `None`.
     pub(super) fn even_count(&self, property: usize) -> Option<usize> {
         match &self.layout {
             Layout::Even { counts, .. } => Some(counts[property]),
@@ -136,8 +136,8 @@ impl<'a> Table<'a> {
     }
 }
 
-/// If the lists of every row have the same lengths as in the first row, returns the layout and the total length of the
-/// rows. Otherwise, returns `None`.
+/// If the length of each list is the same in all rows, returns the layout and the total length of the rows. Otherwise,
+/// returns `None`.
 fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option<(Layout, usize)> {
     let mut at = 0_usize;
     let (mut places, mut counts, mut lists) = (Vec::new(), Vec::new(), Vec::new());

@@ -384,7 +384,7 @@ fn float_for(values: &Values, size: usize) -> Type {
     }
 }
 
-/// Whether `is` returns true for the first `size` components of all vectors.
+/// Whether the function `is` returns true for each of the first `size` components of every vector.
 fn all_numbers(values: &Values, size: usize, is: impl Fn(f64) -> bool + Sync) -> bool {
     parallel::all(values.len(), |i| match values {
         Values::Vec2(v) => v[i].to_array()[..size].iter().all(|&x| is(x)),

@@ -46,10 +46,10 @@ pub(super) fn elements_in_block(stride: usize) -> usize {
     (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK)
 }
 
-/// A lower bound for the size in bytes of a stream of `count` elements of `stride` bytes. The stride is at most 256. A
-/// block is shortest if all its differences are 0. In version 0, such a block needs 2 bits for each group of 16
-/// differences. In version 1, it needs 2 bits for each byte of an element, regardless of the number of elements in the
-/// block.
+/// A lower bound for the size of a stream in bytes. The stream has `count` elements, each with `stride` bytes. The
+/// stride is at most 256. A block is shortest if all its differences are 0. In version 0, such a block needs 2 bits for
+/// each group of 16 differences. In version 1, it needs 2 bits for each byte of an element, regardless of the number of
+/// elements in the block.
 pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
     let block = elements_in_block(stride) as u64;

@@ -10,7 +10,7 @@
 use super::input::{Input, header, zigzag};
 use crate::fault::Fault;
 
-/// The length in bytes of the end of the stream, which the decoder ignores.
+/// The decoder ignores this number of bytes at the end of the stream.
 const TAIL: u8 = 4;
 
 /// A lower bound for the size of a stream of `count` indices, in bytes.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::ReadError;
 
-/// An error at one position of a file. The error does not contain the name of the file, which is added later.
+/// An error at one position of a file. The error does not contain the name of the file. The name is added later.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) at: Location,

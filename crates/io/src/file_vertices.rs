@@ -12,7 +12,7 @@ use scene::{Geometry, Object, Scene};
 /// [`ReadOptions::keep_vertices`](crate::ReadOptions::keep_vertices) is set.
 pub(crate) const COPY_DISTANCE: &str = "distance to the original vertex";
 
-/// The original vertices of a mesh, which are the vertices of the file that the mesh was read from.
+/// The original vertices of a mesh: the vertices of the file from which the mesh was read.
 pub(crate) struct FileVertices {
     /// Two lists: the vertices that are written, and for each vertex of the mesh, its index in the written file. A copy
     /// has the same index as its original. `None` if the mesh has no attribute [`COPY_DISTANCE`].

@@ -1,5 +1,5 @@
-//! Handles the images of materials. When a model is read, the folders of its material libraries and the folder of the
-//! model are searched for its images. When a scene is written, images are embedded or copied.
+//! Handles the images of materials. When a model is read, the reader searches for images in the folders of the material
+//! libraries, and then in the folder of the model. When a scene is written, images are embedded or copied.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};

@@ -127,8 +127,8 @@ pub struct ReadOptions {
     /// The name for objects that have no name in the file. If the file is an `.mws` file with a single object, this
     /// name replaces the name of the object. If `None`, objects without a name get the name of the file without its
     /// extension, and all objects of an `.mws` file keep their names. In glTF and COLLADA files, an object has the name
-    /// of its node or, if the node has no name, of its mesh. If several nodes of a glTF file share an object, the name
-    /// of the mesh takes precedence over the names of the nodes.
+    /// of its node. If the node has no name, the object has the name of its mesh. If several nodes of a glTF file share
+    /// an object, the name of the mesh takes precedence over the names of the nodes.
     pub name: Option<String>,
     /// How to handle polygons that do not form a clean mesh, for example duplicate faces.
     pub policies: Policies,

@@ -85,9 +85,9 @@ impl fmt::Display for Loss {
     }
 }
 
-/// Returns the number of elements in this domain, which is also the number of values of an attribute. The array of a
-/// corner attribute has additional entries for boundary half-edges. These entries are not counted, because boundary
-/// half-edges are not corners.
+/// Returns the number of elements in this domain. An attribute has the same number of values. The array of a corner
+/// attribute has additional entries for boundary half-edges. These entries are not counted, because boundary half-edges
+/// are not corners.
 pub(crate) fn n_values(mesh: &Mesh, domain: Domain) -> usize {
     match domain {
         Domain::Corner => {

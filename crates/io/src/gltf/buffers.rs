@@ -123,8 +123,8 @@ pub(super) fn load<'a>(
         let mut bytes = match &buffer.uri {
             None => {
                 let chunk = if i == 0 { binary.take() } else { None };
-                // A buffer without a URI and without a binary chunk has no bytes. If its declared length is not 0, it
-                // is refused below.
+                // A buffer without a URI and without a binary chunk has no bytes. If such a buffer declares a length
+                // other than 0, the buffer is refused below.
                 Cow::Borrowed(chunk.unwrap_or_default())
             }
             Some(uri) => {

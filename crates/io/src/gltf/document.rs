@@ -293,7 +293,7 @@ fn lights(json: &Value) -> Result<Vec<Json>, Fault> {
 fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, Fault> {
     let scenes = list(json, "scenes")?;
     if scenes.is_empty() {
-        // If the document has no scenes, the roots are the nodes that are not a child of another node.
+        // If the document has no scenes, the roots are the nodes without a parent.
         let nodes = list(json, "nodes")?;
         let mut is_child = vec![false; nodes.len()];
         for node in nodes {

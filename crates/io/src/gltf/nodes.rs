@@ -107,8 +107,8 @@ fn note_left_out(document: &Document, notes: &mut Notes) {
     notes.left_out("skins", document.skins.len(), None, what);
 }
 
-/// Returns the nodes of the scene in depth-first order: each node is followed by its first child and the descendants of
-/// this child, then by its second child, and so on.
+/// Returns the nodes of the scene in depth-first order. After each node come its first child and the descendants of
+/// this child, then its second child, and so on.
 fn scene_nodes(document: &Document) -> Result<Vec<SceneNode>, Fault> {
     let mut visited = vec![false; document.nodes.len()];
     let mut nodes: Vec<SceneNode> = Vec::new();

@@ -347,8 +347,8 @@ impl Grid {
     }
 }
 
-/// Rounds the numbers of an attribute, which are in the range from 0 to 1, to integers. Returns the rounded numbers and
-/// the largest error.
+/// Rounds the numbers of an attribute to integers. The numbers are in the range from 0 to 1. Returns the rounded
+/// numbers and the largest error.
 fn fractions(prepared: &PreparedObject, stream: &Stream, bits: Bits) -> (Integers, f64) {
     let PreparedObject { mesh, split, .. } = prepared;
     let (size, largest) = if bits.is_byte() {

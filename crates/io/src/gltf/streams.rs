@@ -95,8 +95,8 @@ pub(super) fn streams<'a>(
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_deformer(domain, column)
             || is_mark(domain, column)
-            // If a morph target is not written, the loss of the target also covers its other attributes, such as its
-            // normals. No further losses are reported for these attributes.
+            // If a morph target is not written, one loss is reported for the whole target. No further losses are
+            // reported for its other attributes, such as its normals.
             || normals.is_some() && morph_normal_of(&column.name).is_some()
             || tangents.is_some() && morph_tangent_of(&column.name).is_some()
             || morph_value_of(&column.name).is_some_and(|(changed, _)| {

@@ -18,8 +18,8 @@ use crate::loss::Losses;
 /// The materials, textures, samplers and images of a document, without duplicates.
 #[derive(Default)]
 pub(super) struct MaterialWriter {
-    /// For each element of `materials`, the material of the scene from which it was made, without the textures that are
-    /// not written.
+    /// For each element of `materials`, the material of the scene from which it was made. Textures that are not written
+    /// are removed from these materials.
     known: Vec<Material>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) textures: Vec<TextureJson>,

@@ -71,8 +71,8 @@ impl Archive {
     }
 }
 
-/// Appends the fields that the local header and the central header of a file have in common: from the version to the
-/// length of the extra field, which is 0.
+/// The local header and the central header of a file have some fields in common. Appends these fields, from the version
+/// to the length of the extra field. This length is 0.
 fn push_header(out: &mut Vec<u8>, entry: &Entry) {
     out.extend(COMMON.iter().flat_map(|x| x.to_le_bytes()));
     out.extend(entry.sizes.iter().flat_map(|&x| low(x)));

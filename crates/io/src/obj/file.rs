@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3, DVec4};
 
 use crate::text::TextPosition;
 
-/// The index that corners without a texture coordinate or without a normal get.
+/// Stands for a missing index, at corners without a texture coordinate or without a normal.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// The material name that some programs use for faces without a material. The format has no statement that unsets the

@@ -1,4 +1,4 @@
-//! Joins the parts of an OBJ file, which were parsed in parallel, in the order of the file.
+//! The parts of an OBJ file are parsed in parallel. Joins these parts in the order of the file.
 
 use std::collections::BTreeMap;
 

@@ -144,8 +144,8 @@ fn push_numbers(out: &mut Vec<u8>, numbers: &[f64]) {
 }
 
 /// Whether all components are exact multiples of 1/255, and at least one of them is greater than 1/255. If such colors
-/// are written as bytes, at least one byte is greater than 1, so a reader does not mistake the bytes for components
-/// from 0 to 1.
+/// are written as bytes, at least one byte is greater than 1. Therefore, a reader does not mistake the bytes for
+/// components from 0 to 1.
 fn are_bytes(values: &Values) -> bool {
     let Values::Vec4(colors) = values else {
         return false;

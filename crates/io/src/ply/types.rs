@@ -35,7 +35,7 @@ impl Type {
         found.map(|&(kind, ..)| kind)
     }
 
-    /// Returns the old name of the type, which all readers accept.
+    /// Returns the old name of the type. All readers accept the old names.
     pub(super) fn name(self) -> &'static str {
         TYPES[self as usize].1[0]
     }
@@ -58,7 +58,7 @@ impl Type {
         }
     }
 
-    /// The number by which a color component of this type is divided to get a component from 0 to 1.
+    /// A color component of this type is divided by this number to get a component from 0 to 1.
     pub(super) fn color_unit(self) -> f64 {
         match self {
             Self::Float32 | Self::Float64 => 1.0,

@@ -28,9 +28,9 @@ pub(super) enum Side {
 }
 
 /// Compares the normal of a facet with the normal that is computed from the corners of the facet. The two normals agree
-/// if the angle between them is at most 6 degrees (its sine is at most 1/10). They also agree if the normal of the
-/// facet is zero or not finite, or if the area of the facet is zero. If the facet is so thin that its area can be a
-/// result of rounding errors, the normals agree unless they are nearly opposite.
+/// if the angle between them is at most about 5.7 degrees (the sine of the angle is at most 1/10). They also agree if
+/// the normal of the facet is zero or not finite, or if the area of the facet is zero. If the facet is so thin that its
+/// area can be a result of rounding errors, the normals agree unless they are nearly opposite.
 #[inline]
 pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
     let area = (b - a).cross(c - a);
@@ -46,8 +46,8 @@ pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
             Side::Opposite
         };
     }
-    // The coordinates in the file have a precision of only 24 bits, so the computed normal of a sliver (a very thin
-    // triangle) can be wrong because of rounding errors. Therefore, a sliver counts as a facet whose normals agree.
+    // The coordinates in the file have a precision of only 24 bits. Rounding errors can make the computed normal of a
+    // sliver (a very thin triangle) wrong. Therefore, a sliver counts as a facet whose normals agree.
     let size = a.abs().max(b.abs()).max(c.abs()).max_element();
     let longest = (b - a).length_squared().max((c - a).length_squared());
     let rounding = 4.0 / f64::from(1 << 24) * size;

@@ -23,7 +23,7 @@ const BLOCK_BYTES: usize = 8192;
 /// The largest number of elements in a block.
 pub(super) const BLOCK: usize = 256;
 
-/// The number of bits of each difference in a group, for each of the four kinds of groups.
+/// For each of the four kinds of groups, the number of bits of each difference in the group.
 type Bits = [u8; 4];
 
 const VERSION_0: Bits = [0, 2, 4, 8];

@@ -111,7 +111,7 @@ fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
     [x, y, z].map(|x| (x / length * largest).round())
 }
 
-/// Restores the largest component of a unit quaternion, which the encoding leaves out. Returns the quaternion,
+/// The encoding of a unit quaternion leaves out its largest component. Restores this component. Returns the quaternion,
 /// multiplied by 32767 and rounded.
 ///
 /// The argument `last` contains two numbers. Its lowest two bits are the index of the largest component. If these two
@@ -129,7 +129,7 @@ fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
 /// is infinite if it is too large.
 fn exponential(bits: i32) -> f32 {
     let (exponent, mantissa) = (bits >> 24, bits << 8 >> 8);
-    // The number is computed as a 64-bit float, which stores it exactly for every exponent.
+    // The number is computed as a 64-bit float, because a 64-bit float can store it exactly for every exponent.
     libm::ldexp(f64::from(mantissa), exponent) as f32
 }
 

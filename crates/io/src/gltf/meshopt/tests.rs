@@ -44,7 +44,7 @@ fn view(length: u64) -> View {
     View::deserialize(json!({ "buffer": 0, "byteLength": length })).unwrap()
 }
 
-/// Decodes a stream in the same way as the reader, which refuses streams that are too short before it decodes them.
+/// Decodes a stream in the same way as the reader: a stream that is too short is refused before it is decoded.
 fn decode(compressed: &Compressed, stream: &[u8]) -> Result<Vec<u8>, String> {
     let length = compressed.count.saturating_mul(compressed.byte_stride);
     let compressed = Compressed {

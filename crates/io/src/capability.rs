@@ -130,7 +130,7 @@ fn usual_type(domain: Domain, name: &str) -> Option<Values> {
 
 impl Format {
     /// Returns the reason why files of this format cannot store an object with this [kind](scene::Geometry::kind) of
-    /// geometry. Returns `None` if they can.
+    /// geometry. Returns `None` if files of this format can store such an object.
     pub fn refused_kind(self, kind: &str) -> Option<String> {
         let (kinds, stores): (&[&str], _) = match self {
             Self::Mws => return None,

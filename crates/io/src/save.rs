@@ -30,7 +30,8 @@ pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 /// # Errors
 ///
 /// Returns [`WriteError::Io`] with the path of the file that could not be written. After this error, existing files are
-/// unchanged, unless the system failed to rename a temporary file after it had renamed others.
+/// unchanged, with one exception: if the system fails to rename one of several temporary files, the files that were
+/// renamed earlier have already been replaced.
 pub(crate) fn save(
     store: &dyn Store,
     files: Vec<(PathBuf, Content)>,

@@ -283,8 +283,8 @@ pub(super) fn child<'a>(node: Node<'a>, name: &'static str) -> Option<Node<'a>> 
     named(node, name).next()
 }
 
-/// Follows a path of element names. The first name belongs to a child of `node`, and each further name to a child of
-/// the element before. Returns the last element.
+/// Follows a path of element names. The first name belongs to a child of `node`, and each further name belongs to a
+/// child of the previous element. Returns the last element.
 pub(super) fn below<'a>(node: Node<'a>, names: &[&'static str]) -> Option<Node<'a>> {
     names.iter().try_fold(node, |node, name| child(node, name))
 }

@@ -116,8 +116,8 @@ impl Around {
             sum += *start;
             *start = sum;
         }
-        // Each list is filled backward. At first, its entry in `starts` is the end of the list. The entry decreases
-        // with each added triangle until it is the start of the list.
+        // Each list is filled backward. At first, the entry of a list in `starts` is the end of the list. With each
+        // added triangle, this entry decreases, until it is the start of the list.
         let mut triangles = vec![0; corners.len()];
         for (i, &corner) in corners.iter().enumerate().rev() {
             let start = &mut starts[corner as usize];

@@ -211,7 +211,7 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let emissive_texture = ignored.plain(unknown.remove("map_Ke"));
     let [rough, metal] = ["map_Pr", "map_Pm"].map(|key| ignored.plain(unknown.remove(key)));
     // In the scene, as in glTF, one texture stores both roughness and metalness. In MTL, roughness and metalness have
-    // separate textures. They are read only if both are the same file.
+    // separate textures. These textures are read only if both of them are the same file.
     let metallic_roughness_texture = if rough == metal {
         rough
     } else {

@@ -37,7 +37,7 @@ fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, Fault> {
     }
 }
 
-/// Parses a file in order, after parsing in parts failed. The reason is usually an error, and only parsing in order
+/// Parses a file in order, after parsing in parts failed. Usually, the file contains an error. Only parsing in order
 /// finds the exact position of the first error.
 fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     let part = read_whole(bytes, Limits::Start)?;

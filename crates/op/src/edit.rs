@@ -121,7 +121,7 @@ impl<E: EditTarget> EditTarget for [E; 2] {
 /// # Errors
 ///
 /// Returns [`OpError::Cancelled`] if the run was canceled. With [`OnRefusal::Error`], returns the first refusal as the
-/// error. If this function returns an error, it has possibly already edited some of the elements. The operation must
+/// error. When this function returns an error, some of the elements are possibly already edited. The operation must
 /// return the error, and the caller of the operation undoes the edits.
 pub fn edit_each<I: EditTarget>(
     mesh: &mut Mesh,

@@ -32,12 +32,12 @@ pub enum Refusal {
     FewCorners,
     /// A face would have the same vertex at two corners.
     RepeatedVertex,
-    /// The edit would leave no faces at the place of the edge, or only two faces that lie back to back.
+    /// The collapse of an edge would leave no face at the merged vertex, or only two faces that lie back to back.
     Vanishes,
     /// The two ends of an edge cannot be merged: they have a common neighbor that is not a corner of a triangle at the
     /// edge.
     Link,
-    /// The two ends of an edge cannot be merged because both lie on the boundary, but the edge does not.
+    /// Both ends of an edge lie on the boundary, but the edge itself does not, so the two ends cannot be merged.
     JoinsBoundaries,
     /// Corner attributes differ between the two sides of an edge, and the edit would lose this difference.
     Seam,

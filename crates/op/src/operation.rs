@@ -60,9 +60,9 @@ pub trait MeshOperation:
     /// This method runs before any geometry exists, and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the mesh. The mesh [is dense](Mesh::is_dense): no element is dead, so ids are indices into the arrays of
-    /// the mesh, such as `positions()`. This method must call [`Context::advance`] before the first change. An
-    /// operation that computes a new mesh stores it with [`Mesh::replace`].
+    /// Changes the mesh. The mesh [is dense](Mesh::is_dense), that is, it has no deleted elements. Ids are therefore
+    /// indices into the arrays of the mesh, such as `positions()`. This method must call [`Context::advance`] before
+    /// the first change. An operation that computes a new mesh stores it with [`Mesh::replace`].
     ///
     /// # Errors
     ///
@@ -102,8 +102,8 @@ pub trait Operation:
     /// step.
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the scene. All meshes of the scene [are dense](Mesh::is_dense): they have no dead elements. This method
-    /// must call [`Context::advance`] before the first change.
+    /// Changes the scene. All meshes of the scene [are dense](Mesh::is_dense), that is, they have no deleted elements.
+    /// This method must call [`Context::advance`] before the first change.
     ///
     /// # Errors
     ///

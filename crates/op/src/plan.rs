@@ -50,8 +50,8 @@ pub struct PlannedObject {
     pub name: String,
     /// The geometry.
     pub geometry: PlannedGeometry,
-    /// The number of root nodes with this object that are missing from the graph of the plan. Their transforms are not
-    /// yet known.
+    /// The number of root nodes that will reference this object, but are missing from the graph of the plan. The
+    /// transforms of these nodes are not yet known.
     pub unplaced_nodes: u64,
 }
 
@@ -63,8 +63,9 @@ pub struct Plan {
     /// Maps the name of each object to its index. [`objects_mut`](Self::objects_mut) empties the map, and the next
     /// [`insert`](Self::insert) or [`free_name`](Self::free_name) fills it again.
     index_by_name: HashMap<String, usize>,
-    /// Maps each name that was passed to [`free_name`](Self::free_name) to the last number that `free_name` chose for
-    /// it. All lower numbers are taken. Every method that clears `index_by_name` also clears `taken_numbers`.
+    /// For each name that was passed to [`free_name`](Self::free_name), the last number that `free_name` chose for this
+    /// name. Objects already use all lower numbers. Every method that clears `index_by_name` also clears
+    /// `taken_numbers`.
     taken_numbers: HashMap<String, u64>,
     is_edited: bool,
     /// The files that are read by the steps planned so far.

@@ -71,7 +71,7 @@ impl Entry {
         (self.schema)().to_value()
     }
 
-    /// Adds the schema of the parameters to the definitions of `generator`, and returns a reference to this definition.
+    /// Adds the schema of the parameters to the definitions of `generator`, and returns a reference to the schema.
     pub fn schema_in(&self, generator: &mut SchemaGenerator) -> serde_json::Value {
         (self.schema_in)(generator).to_value()
     }
@@ -114,8 +114,8 @@ impl Registry {
         self
     }
 
-    /// Adds an operation that replaces others. First removes every operation that has the name of the new operation as
-    /// its current name or as an earlier name.
+    /// Adds an operation that replaces others. First removes every operation whose current name, or one of its earlier
+    /// names, is the name of the new operation.
     #[must_use]
     pub fn with_override<T: Operation>(mut self) -> Self {
         self.entries

@@ -10,7 +10,7 @@ use scene::{Geometry, Scene};
 use crate::source::named_object;
 use crate::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range, Report};
 
-/// Words for messages about the kind of objects that an operation can change.
+/// The words that messages use for an operation and for the kind of objects that it can change.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetKind {
     /// The name of the operation.
@@ -80,8 +80,7 @@ impl TargetKind {
 }
 
 /// Returns the names of the objects that a step acts on, in the order of the scene. If the step has `on:`, it acts on
-/// the objects named there. A step without `on:` acts on each object if `is_wanted` returns true for the geometry of
-/// the object.
+/// the objects named there. Otherwise, it acts on each object for whose geometry `is_wanted` returns true.
 ///
 /// # Errors
 ///

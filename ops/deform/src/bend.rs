@@ -33,8 +33,8 @@ pub struct Bend {
     pub axis: Axis,
     /// The angle by which the axis turns from `from` to `to`, in degrees. A negative angle bends to the other side.
     pub angle: Angle,
-    /// The coordinate axis in whose positive direction the upper end bends. If omitted, the axis after `axis` in the
-    /// order x, y, z, x.
+    /// The upper end bends in the positive direction of this coordinate axis. If omitted, this is the axis after `axis`
+    /// in the order x, y, z, x.
     #[serde(default)]
     pub towards: Option<Axis>,
     /// A point on the axis. The coordinate of the point along the axis does not matter.

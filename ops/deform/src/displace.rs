@@ -70,7 +70,7 @@ pub enum DisplaceBy {
     Image {
         /// The PNG or JPEG file. A relative path is relative to the folder of the recipe.
         path: String,
-        /// The name of the texture coordinates. Defaults to `uv`.
+        /// The name of the attribute that holds the texture coordinates. Defaults to `uv`.
         #[serde(default = "uv")]
         uv: String,
     },
@@ -309,8 +309,8 @@ mod tests {
         ));
     }
 
-    /// Returns a plane grid and the folder of an image. The texture coordinates of the grid are its positions. The left
-    /// half of the image is black, and the right half is white.
+    /// Returns a plane grid and the folder of an image. The texture coordinates of a vertex are its x and y
+    /// coordinates, scaled to the range from 0 to 1. The left half of the image is black, and the right half is white.
     fn grid_and_image() -> (Mesh, tempfile::TempDir) {
         let mut grid = shapes::grid(4, 4);
         let [min, max] = geometry::bounds(&grid).unwrap();

@@ -17,12 +17,12 @@ use crate::moved::moved;
 /// Deforms vertices with a box of control points.
 ///
 /// The box contains a regular grid of control points. `size` gives the number of control points along x, y and z.
-/// `moves` moves some of the control points, and the space in the box is deformed smoothly. The new position of a point
-/// in the box is a weighted sum of the new positions of all control points. The weights are Bernstein polynomials
-/// (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the same
-/// offset, the whole box moves by this offset. If only one control point moves, the points in the box move in the same
-/// direction, but less far. However, if the control point is at a corner of the box, this corner moves exactly as far
-/// as the control point.
+/// `moves` gives offsets for some of the control points. The space in the box follows the moved points smoothly. The
+/// new position of a point in the box is a weighted sum of the new positions of all control points. The weights are
+/// Bernstein polynomials (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control
+/// points move by the same offset, the whole box moves by this offset. If only one control point moves, the points in
+/// the box move in the same direction, but less far. However, if the control point is at a corner of the box, this
+/// corner moves exactly as far as the control point.
 ///
 /// Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes do
 /// not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces are

@@ -21,9 +21,9 @@ use crate::moved::moved;
 /// tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with the surface.
 ///
 /// Vertices that would move farther than `distance` do not move. With `along: Normal`, a vertex moves along the line of
-/// its normal, and with `along: Direction(..)`, along a ray in this direction. If this line or ray misses the surface,
-/// the vertex does not move. The report counts the vertices that would move too far, and the vertices whose line or ray
-/// misses the surface.
+/// its normal. With `along: Direction(..)`, a vertex moves along a ray in this direction. If the line or ray of a
+/// vertex misses the surface, the vertex does not move. The report counts the vertices that would move too far, and the
+/// vertices whose line or ray misses the surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Project {

@@ -17,8 +17,8 @@ use crate::moved::{Stretch, moved, next};
 /// Rotates vertices around an axis, by an angle that grows along the axis.
 ///
 /// Along the axis, the angle grows linearly from 0 at the coordinate `from` to `angle` at the coordinate `to`. Vertices
-/// below `from` do not move, and vertices above `to` rotate by `angle`. An exact twist keeps the volume. The volume of
-/// a mesh changes slightly, because its edges stay straight, but the change is small if the mesh is fine. A second
+/// below `from` do not move, and vertices above `to` rotate by `angle`. An exact twist keeps the volume. The edges of a
+/// mesh stay straight, so the volume of the mesh changes slightly. The change is small if the mesh is fine. A second
 /// twist with the opposite angle and the same other parameters undoes the first twist. Source: Barr, "Global and Local
 /// Deformations of Solid Primitives", 1984.
 ///

@@ -17,12 +17,12 @@ use op::{Refusal, readable};
 ///
 /// A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
 /// extends up to the distance `width` from the old edge. An edge that is not selected, but ends at a vertex of a
-/// selected edge, is shortened at this vertex. If the two edges are neighboring sides of a face, the distance between
-/// the new end and the selected edge is `width`. However, the edge is shortened by at most four times `width`. If the
-/// two edges are not neighboring sides of a face, the edge is shortened by `width`. If two selected edges are
-/// neighboring sides of a face, a new vertex inside this face replaces the corner between them. If three or more new
-/// vertices replace an old vertex, another new face joins the new vertices. All selected edges are beveled at once. For
-/// example, a cube with 12 selected edges keeps all of its symmetries.
+/// selected edge, is shortened at this vertex. If the shortened edge and the selected edge are neighboring sides of a
+/// face, the new end of the shortened edge is at the distance `width` from the selected edge. However, the edge is
+/// shortened by at most four times `width`. If the two edges are not neighboring sides of a face, the edge is shortened
+/// by `width`. If two selected edges are neighboring sides of a face, a new vertex inside this face replaces the corner
+/// between them. If three or more new vertices replace an old vertex, another new face joins the new vertices. All
+/// selected edges are beveled at once. For example, a cube with 12 selected edges keeps all of its symmetries.
 ///
 /// The vertices at the ends of selected edges are removed, so vertices with higher ids get new ids. New vertices get
 /// the highest ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order

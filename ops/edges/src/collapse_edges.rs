@@ -213,7 +213,7 @@ mod tests {
             prop_assert!(after.faces().all(|f| plan.degrees.contains(after.degree(f) as u64)));
             prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
             prop_assert_eq!(after.n_boundary_loops(), before.n_boundary_loops());
-            // Each merged vertex is on an edge of the old mesh, and therefore inside its bounding box.
+            // Each merged vertex is on an edge of the old mesh, and therefore inside the bounding box of the old mesh.
             if let (Some([low, high]), Some([min, max])) = (geometry::bounds(&before), geometry::bounds(&after)) {
                 let slack = DVec3::splat(1e-12);
                 prop_assert!((low - slack).cmple(min).all() && max.cmple(high + slack).all());

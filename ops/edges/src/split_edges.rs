@@ -13,11 +13,11 @@ use op::prelude::*;
 /// Inserts a vertex on each edge and joins this vertex to the opposite corners of the triangles beside the edge.
 ///
 /// In a mesh of triangles, the split of an inner edge adds 1 vertex, 3 edges and 2 faces. The split of a boundary edge
-/// adds 1 vertex, 2 edges and 1 face. A face with more than three corners beside the edge is not cut. It only gains the
-/// new vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get the
-/// highest ids, in the order of the splits. Attribute values at the new vertex and at its corners are interpolated
-/// between the ends of the edge. A seam is an edge whose corner values, such as UVs, differ between its two sides. At a
-/// seam, the corner values of each side are interpolated separately.
+/// adds 1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not cut and
+/// only gains the new vertex as a corner. Edges are split in order of their ids; new edges are not split again. New
+/// vertices get the highest ids, in the order of the splits. Attribute values at the new vertex and at its corners are
+/// interpolated between the ends of the edge. A seam is an edge whose corner values, such as UVs, differ between its
+/// two sides. At a seam, the corner values of each side are interpolated separately.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitEdges {

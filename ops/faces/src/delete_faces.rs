@@ -27,7 +27,7 @@ use op::prelude::*;
 pub struct DeleteFaces {
     /// The faces to delete.
     pub faces: FaceSelection,
-    /// What to do when not all faces can be removed.
+    /// What to do when some of the faces cannot be removed.
     #[serde(default)]
     pub on_refusal: OnRefusal,
     /// Whether to keep vertices that are left without an edge.
@@ -83,8 +83,8 @@ impl MeshOperation for DeleteFaces {
     }
 }
 
-/// Tries to remove the faces one by one, and then tries again to remove the faces that could not be removed. Stops when
-/// all `faces` are removed, or when no further face can be removed.
+/// Tries to remove the faces one by one, and then tries the remaining faces again. Stops when all `faces` are removed,
+/// or when no further face can be removed.
 fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Report, OpError> {
     let total = faces.len();
     let mut refused: Vec<(FaceId, EditError)> = Vec::new();

@@ -182,8 +182,8 @@ impl Load {
     }
 }
 
-/// Returns the possible loss of faces that may contain a vertex twice. Returns `None` if there are no faces of this
-/// kind, or if `peek` did not examine the faces.
+/// Some faces of the file may contain a vertex twice. Returns the loss that reports how many faces could be dropped for
+/// this reason. Returns `None` if there are no such faces, or if `peek` did not examine the faces.
 fn dropped_faces(peek: &Peek, path: &Path) -> Option<Loss> {
     let count = |object: &PeekObject| match object.geometry {
         PeekGeometry::Mesh(mesh) if mesh.keeps_vertices || mesh.simple_faces > 0 => {

@@ -10,8 +10,8 @@ use op::{Loss, PlannedObject};
 
 use crate::Save;
 
-/// Returns the problems of objects that the format cannot store. Adds the losses that are known before the run to the
-/// plan.
+/// Returns problems if the format cannot store the kind or the number of the objects. Adds the losses that are known
+/// before the run to the plan.
 pub(crate) fn plan(save: &Save, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
     let format = Format::from_path(Path::new(&save.path));
     let Some(format) = format.filter(|format| format.can_write()) else {

@@ -24,9 +24,9 @@ use op::prelude::*;
 /// handle. They can also be in two separate parts of the mesh, which then become connected. To bridge holes of two
 /// objects, first use `Join` to make one mesh of the objects.
 ///
-/// Each new face has one edge of the hole that has more edges, or of the hole of the vertex `first` if both holes have
-/// the same number of edges. The new face copies the attribute values of the face on the other side of this edge. A new
-/// corner has the values of an existing corner at the same vertex. Normals are dropped.
+/// Each new face is beside one edge of the hole that has more edges. If both holes have the same number of edges, this
+/// edge belongs to the hole of the vertex `first`. The new face copies the attribute values of the old face on the
+/// other side of this edge. A new corner has the values of an existing corner at the same vertex. Normals are dropped.
 ///
 /// The step is refused if one of the given vertices is not on the boundary (reason: `NotBoundary`), or if both are on
 /// the same hole (reason: `WrongPlace`). The step is also refused if a new edge would join two vertices that an edge

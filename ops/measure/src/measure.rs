@@ -50,8 +50,8 @@ impl Measure {
         }
     }
 
-    /// Whether a step without `on` does not measure `object`, because the quantity refers to this object. For example,
-    /// distances to an object are not measured on the object itself.
+    /// Whether a step without `on` leaves out `object`, because the quantity is measured relative to this object. For
+    /// example, distances to an object are not measured on the object itself.
     fn leaves_out(&self, object: &str) -> bool {
         self.of.other().is_some_and(|(other, _)| other == object)
     }

@@ -283,9 +283,9 @@ impl Join {
 }
 
 /// Returns all instances of the parts: a copy of a part for each node that places this part in the scene. An instance
-/// has the name of its part. Returns `None` if no node places any of the parts. The points are in scene space or, if a
-/// skin is kept, in the space in which the skin binds points. If `keeps_morphs` is true, the morph targets are not
-/// applied to the points, because the result keeps the default weights of the targets.
+/// has the name of its part. Returns `None` if no node places any of the parts. The points are in scene space. If a
+/// skin is kept, they are instead in bind space, the space in which the skin binds points. If `keeps_morphs` is true,
+/// the morph targets are not applied to the points, because the result keeps the default weights of the targets.
 fn placed(
     scene: &Scene,
     parts: &[&Object],

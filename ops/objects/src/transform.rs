@@ -71,7 +71,8 @@ pub enum Space {
     /// If no node places the object, the step changes the points of the object.
     #[default]
     Scene,
-    /// The own space of each object. The step changes the points of the object, so all instances of the object change.
+    /// The coordinate system in which the object stores its points. The step changes the points of the object, so all
+    /// instances of the object change.
     Object,
 }
 
@@ -251,7 +252,7 @@ impl Operation for Transform {
     }
 }
 
-/// Transforms the values of all columns of normals.
+/// Transforms the values of all attributes that hold normals.
 fn transform_normals(mesh: &mut Mesh, map: &Map) {
     let columns = mesh.attributes().iter();
     let normals = columns.filter(|(domain, column)| scene::holds_normals(*domain, column));

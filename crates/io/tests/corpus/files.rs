@@ -26,9 +26,9 @@ const ROUNDS: usize = 4;
 const INSTANCES: usize = 1 << 25;
 
 /// Reads `bytes` as a file with this extension, and checks the memory that reading takes. Then writes and reads the
-/// content in several rounds, until the written bytes stay the same. In the third round and later, the bytes may differ
-/// from the bytes of the previous round only if the previous round reported losses. An `.mtl` file is read as the
-/// library of an `.obj` file, and the content of a `.dae` file is written as OBJ.
+/// content in several rounds, until the written bytes stay the same. From the third round on, each round must write the
+/// same bytes as the round before, unless the round before reported losses. An `.mtl` file is read as the library of an
+/// `.obj` file, and the content of a `.dae` file is written as OBJ.
 ///
 /// # Panics
 ///

@@ -1,5 +1,5 @@
-//! Reads each file in `tests/fuzz/corpus/` in a separate test. The reader must read or refuse the file in little time
-//! and memory. The fuzzer checks the same for random bytes. The corpus includes the files for which the fuzzer found
+//! Reads each file in `tests/fuzz/corpus/` in a separate test. The reader must read or refuse the file quickly and with
+//! little memory. The fuzzer checks this for random bytes. The corpus includes the files for which the fuzzer found
 //! errors. These files have descriptive names.
 
 mod files;
@@ -30,8 +30,8 @@ fn main() {
         })
     });
     let trials = trials.collect();
-    // The first read allocates threads and tables that are not freed. This read keeps them out of the measurements of
-    // the tests.
+    // The first file that is read starts threads and allocates tables, which are not freed. Reading a file here keeps
+    // this memory out of the measurements in the tests.
     files::check("off", b"OFF 0 0 0");
     libtest_mimic::run(&arguments, trials).exit();
 }

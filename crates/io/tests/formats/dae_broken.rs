@@ -313,7 +313,7 @@ fn a_geometry_that_is_repeated_too_often_is_refused() {
 
 #[test]
 fn many_sources_of_a_long_array_are_refused() {
-    // Each source has an accessor without vectors, but the reader still reads all numbers of the array.
+    // The accessor of each source has the count 0, but the reader still reads all numbers of the array.
     let source = |i: usize| {
         format!(
             "<source id=\"s{i}\"><technique_common><accessor source=\"#a\" count=\"0\" stride=\"3\">\

@@ -1,4 +1,4 @@
-//! Tests of the elements of COLLADA files that do not describe geometry, such as nodes and libraries.
+//! Tests of COLLADA files with elements other than geometry, such as nodes and libraries.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3};

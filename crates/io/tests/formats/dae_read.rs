@@ -79,7 +79,7 @@ pub(crate) fn only(text: &str) -> Object {
     let Loaded {
         mut objects, notes, ..
     } = loaded(text);
-    // The image files of some materials do not exist, which gives notes.
+    // Some materials name image files that do not exist. The notes about these files are ignored.
     let is_other = |note: &&mesh_io::Note| !note.what.starts_with("image ");
     assert_eq!(notes.iter().find(is_other), None);
     assert_eq!(objects.len(), 1);

@@ -108,7 +108,8 @@ fn draco_files_that_break_the_rules_are_errors_with_the_primitive() {
             json!(7);
     });
     assert!(error.contains("buffer view 7 does not exist"), "{error}");
-    // If the stream does not contain an attribute, its values are zeros, because its accessor has no buffer view.
+    // If the stream does not contain an attribute, all values of the attribute are 0, because the accessor of the
+    // attribute has no buffer view.
     let (mut json, binary) = parts(FILES[0].0);
     let extension =
         &mut json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"];

@@ -1,4 +1,4 @@
-//! Tests that a note reports glTF content that is not kept. Also tests that names and extras are kept.
+//! Checks that notes report all glTF content that is not kept, and that names and extras are kept.
 
 use mesh_io::{NoteKind, WriteOptions};
 use scene::Scene;
@@ -128,11 +128,11 @@ fn names_of_textures_and_extras_of_materials_are_kept() {
     }
 }
 
-/// The outcome for a part of a file when the file is read and written.
+/// What happens to a part of a file when the file is read and written again.
 #[derive(Clone)]
 enum Outcome {
-    /// The values at these JSON pointers are unchanged. If a pointer refers to an attribute of a morph target, the
-    /// number of elements of its accessor is compared instead.
+    /// The values at these JSON pointers are unchanged. If a pointer leads to an attribute of a morph target, only the
+    /// number of elements of the attribute is compared.
     Kept(&'static [&'static str]),
     /// A note with this code reports that the part is left out.
     Lost(&'static str),

@@ -1,4 +1,4 @@
-//! Tests of glTF files with compressed views. The program `gltfpack` wrote the files; see `meshopt/make.mjs`.
+//! Tests of glTF files with compressed buffer views. The program `gltfpack` wrote the files; see `meshopt/make.mjs`.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

@@ -220,7 +220,7 @@ fn a_wrong_number_of_changed_normals_is_an_error_that_says_where() {
 fn a_pose_blends_the_normals_of_targets() {
     let normals = [[0.6, 0.0, 0.8]; 6];
     let mut changes = [[-0.6, 0.6, 0.0]; 6];
-    // If the changes differ at two corners of the same vertex, the blended normals are a corner attribute.
+    // If the changes differ between two corners of the same vertex, the blended normals are stored for each corner.
     for is_seam in [false, true] {
         if is_seam {
             changes[5] = [0.0, 0.8, -0.8];

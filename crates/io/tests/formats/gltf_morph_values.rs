@@ -102,7 +102,8 @@ fn changes_of_texture_coordinates_and_colors_are_written_with_the_same_bits() {
     }
     let names: Vec<_> = mesh.attributes().iter().map(|(_, c)| &*c.name).collect();
     assert!(!names.contains(&"morph_uv:0"), "{names:?}");
-    // Like texture coordinates, their changes stay on the corners even if the corners of each vertex have equal values.
+    // Texture coordinates and their changes are stored for each corner, even if all corners of a vertex have equal
+    // values.
     let uv1 = mesh.attributes().column(Domain::Corner, "morph_uv1:1");
     assert!(uv1.is_some(), "{names:?}");
     let back = written(&scene);
@@ -129,7 +130,7 @@ fn a_pose_adds_weighted_changes_and_clamps_colors() {
     }
 }
 
-/// If only some primitives of a mesh have changes of an attribute, the changes are zero in the other primitives.
+/// If a morph target changes an attribute in only some primitives of a mesh, the changes in the other primitives are 0.
 #[test]
 fn a_primitive_without_changes_gets_zeros() {
     let mut json = folded(&CHANGES);

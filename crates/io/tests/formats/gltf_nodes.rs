@@ -47,8 +47,8 @@ fn asset() -> Value {
     json
 }
 
-/// Converts a document to a form that does not depend on the order and the indices of its parts: the tree of its nodes,
-/// in which the meshes, cameras and lights replace the references to them.
+/// Converts a document to the tree of its nodes. In this tree, the meshes, cameras and lights replace the references to
+/// them, so the result does not depend on the order and the indices of the parts of the document.
 fn canonical(json: &Value) -> Value {
     fn node_tree(json: &Value, i: &Value) -> Value {
         let mut node = json["nodes"][index(i)].clone();
@@ -186,8 +186,8 @@ fn roots_keep_their_order() {
     }
 }
 
-/// The writer merges the copies of vertices that the reader made, so the written file has the same vertices as the file
-/// that was read.
+/// The reader makes copies of some vertices. The writer merges these copies, so the written file has the same vertices
+/// as the original file.
 #[test]
 fn meshes_that_are_not_manifold_are_converted_without_a_loss() {
     let mut options = ReadOptions {

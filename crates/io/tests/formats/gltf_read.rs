@@ -114,7 +114,7 @@ fn lists_strips_and_fans_become_triangles() {
     );
     assert_eq!(rotated_triangles(&mesh_of(&square(&[0, 1, 2, 3], 6))), two);
     assert_eq!(rotated_triangles(&mesh_of(&square(&[1, 2, 0, 3], 5))), two);
-    // The strip has triangles that use a vertex twice, which are left out.
+    // Some triangles of the strip use a vertex twice. These triangles are left out.
     let jumping = mesh_of(&square(&[0, 1, 2, 2, 2, 3, 0], 5));
     assert_eq!(jumping.n_faces(), 2);
     assert!(jumping.is_dense() && jumping.n_edges() == 5);

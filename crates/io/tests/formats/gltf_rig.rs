@@ -63,7 +63,7 @@ impl Accessors {
     }
 }
 
-/// The arm consists of this number of rings of vertices.
+/// The number of rings of vertices in the arm.
 const RINGS: usize = 5;
 
 /// Returns the vertices of an arm along the y axis. The arm consists of rings of four vertices.
@@ -501,7 +501,8 @@ fn coincident_vertices_with_different_weights_are_not_merged() {
         &json,
     );
     assert_eq!((equal.n_vertices(), equal.n_edges()), (4, 5));
-    // The second vertex at the first point now follows another joint, so it is not merged.
+    // The first point belongs to two vertices. The second of these vertices now follows another joint, so the two
+    // vertices are not merged.
     let offset = index(&a.views[joints]["byteOffset"]);
     a.bytes[offset + 16] = 1;
     let split = build(a, &json);

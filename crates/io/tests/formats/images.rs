@@ -1,4 +1,4 @@
-//! Tests that images of materials are read from the folder of the model, embedded, copied, or reported as missing.
+//! Checks that images of materials are read from the folder of the model, embedded, copied, or reported as missing.
 
 use std::path::{Path, PathBuf};
 

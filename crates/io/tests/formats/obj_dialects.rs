@@ -7,7 +7,7 @@ use crate::{Folder, read};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// Reads a file. Returns its mesh, and its notes without file names.
+/// Reads a file. Returns the mesh of the file, and the text of the notes without file names.
 fn found(content: impl AsRef<[u8]>) -> (Mesh, Vec<String>) {
     let folder = Folder::new();
     let mut loaded = read(&folder.with("a.obj", content)).unwrap();

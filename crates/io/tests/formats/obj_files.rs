@@ -98,7 +98,7 @@ fn assert_round_trip(object: &Object) {
     assert_same(back.as_mesh().unwrap(), object.as_mesh().unwrap());
     assert_eq!(back.materials, object.materials);
     assert_eq!(back.name, "it");
-    // Writing the object that was read gives the same bytes.
+    // If the object that was read is written again, the two files have the same bytes.
     let again = folder.path("again/it.obj");
     std::fs::create_dir(folder.path("again")).unwrap();
     write(&again, [back]);

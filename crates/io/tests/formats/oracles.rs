@@ -147,8 +147,8 @@ impl Spelling {
 }
 
 proptest! {
-    /// Texture coordinates and normals are compared only at corners that have them. To the other corners, the crate
-    /// `tobj` gives values of a different corner.
+    /// Texture coordinates and normals are compared only at corners that have them. At a corner without such values,
+    /// the crate `tobj` returns the values of a different corner.
     #[test]
     fn tobj_reads_the_same_corners_of_any_dialect(
         points in prop::collection::vec((-1e3..1e3_f64, -10..10_i32, any::<i16>()), COUNT),
@@ -195,7 +195,7 @@ proptest! {
                 prop_assert_eq!(&normals[c].to_array()[..], &theirs.normals[3 * n..3 * n + 3]);
             }
         }
-        // Neither other line ends nor lines that continue after a backslash change the result.
+        // The result stays the same with other line ends, and with lines that continue after a backslash.
         for (from, to) in [("\n", "\r"), (" ", " \\\n")] {
             let other = text.replace("\r\n", "\n").replace(from, to);
             let other = folder.with("b.obj", other);

@@ -1,4 +1,4 @@
-//! Tests that [`mesh_io::peek`] reports the content that reading would leave out.
+//! Checks that [`mesh_io::peek`] reports the content that reading would leave out.
 
 use mesh::Domain;
 use mesh_io::{

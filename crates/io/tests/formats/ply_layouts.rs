@@ -38,7 +38,7 @@ fn push(out: &mut Vec<u8>, encoding: Encoding, kind: usize, value: i64) {
     }
 }
 
-/// The type of the count of a list, which is an integer type, and the type of its items.
+/// The types of a list: first the type of the number of items (an integer type), then the type of the items.
 type List = (usize, usize);
 
 #[derive(Clone, Debug)]

@@ -1,5 +1,5 @@
 //! Checks that writing a scene and reading it again preserves the scene. The only exceptions are reported losses, and
-//! the changes that a table in the documentation of the crate lists.
+//! the changes in a table of the crate documentation.
 
 mod flat;
 mod models;
@@ -281,7 +281,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     })
 }
 
-/// Whether a mesh has a column with this key that contains only default values, such as no material on any face.
+/// Whether a mesh has an attribute with this key in which all values are defaults, such as "no material" on every face.
 fn has_only_defaults(objects: &[Object], (domain, name): &Key) -> bool {
     let meshes = objects.iter().filter_map(Object::as_mesh);
     let mut columns = meshes.flat_map(|mesh| mesh.attributes().iter());

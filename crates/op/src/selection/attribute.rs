@@ -25,8 +25,9 @@ pub(super) fn component_of<'m, S: Select>(
     Ok(move |element: usize| values.component(element, i))
 }
 
-/// Returns the index of the component that a selection uses. `component` is the selection's parameter of this name. If
-/// the attribute holds one number for each element, `component` must be omitted, and the returned index is 0.
+/// Returns the index of the component that a selection uses. `component` is the parameter `component` of this
+/// selection. If the attribute holds one number for each element, `component` must be omitted, and the returned index
+/// is 0.
 ///
 /// # Errors
 ///

@@ -51,7 +51,7 @@ selection! {
         /// Edges with both ends among these vertices.
         EdgesWithin(VertexSelection),
         /// The given edges and all edge loops through them. At an interior vertex with four edges, an edge loop
-        /// continues with the opposite edge. At every other vertex, the loop ends. An edge loop that starts at a
+        /// continues with the opposite edge. At all other vertices, the loop ends. An edge loop that starts at a
         /// boundary edge follows the boundary instead.
         EdgeLoop(Box<Self>),
         /// The given edges and all edge rings through them. In a face with four corners, an edge ring passes from an

@@ -428,8 +428,8 @@ fn center<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
     sum / n
 }
 
-/// Returns a mask of the `count` elements of `mask` for which `key` returns the lowest values. Among elements with
-/// equal values, the elements with the lowest ids are chosen.
+/// Chooses the `count` elements with the lowest values of `key` among the elements that `mask` marks. Among elements
+/// with equal values, the elements with the lowest ids are chosen. Returns a mask of the chosen elements.
 fn lowest<S: Select, K: PartialOrd>(
     mesh: &Mesh,
     count: u32,

@@ -248,8 +248,8 @@ fn random_choices_depend_on_seed_and_step_only() {
 
 #[test]
 fn random_choices_are_uniform() {
-    // Among 2000 choices of 10 out of 40 edges, each edge is chosen about 500 times. For each edge, a difference of 100
-    // or more from 500 has a probability below one in a million.
+    // Among 2000 choices of 10 out of 40 edges, each edge is chosen about 500 times. The probability that an edge is
+    // chosen fewer than 400 times, or 600 times or more, is below one in a million.
     let grid = shapes::grid(4, 4);
     let mut times_chosen = vec![0; 40];
     for seed in 0..2000 {
@@ -442,7 +442,8 @@ fn a_path_is_the_shortest() {
     assert_eq!(ends("Path(from: 5, to: 8)", &grid), [5, 6, 7, 8]);
     assert_eq!(edges(&parse("Path(from: 0, to: 19)"), &grid).len(), 7);
     assert_eq!(edges(&parse("Path(from: 3, to: 3)"), &grid).len(), 0);
-    // Both edges of the direct path end at vertex 7 and are long. A detour with more edges is shorter.
+    // Vertex 7 is far from all other vertices, so the direct path over vertex 7 is long. A path around vertex 7 has
+    // more edges, but is shorter.
     let mut fans = shapes::fans(&grid);
     fans.positions_mut()[7] += DVec3::new(0.0, 0.0, 100.0);
     assert!(!ends("Path(from: 6, to: 8)", &fans).contains(&7));

@@ -8,7 +8,7 @@ use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::{OpError, Refusal};
 
 /// Returns one flag for each edge of the mesh: whether the edge is in `edges` or on an edge loop through one of them.
-/// At an interior vertex with four edges, an edge loop continues with the opposite edge. At every other vertex, the
+/// At an interior vertex with four edges, an edge loop continues with the opposite edge. At all other vertices, the
 /// loop ends. An edge loop that contains a boundary edge follows the boundary instead.
 pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
@@ -59,7 +59,7 @@ fn follow(
 }
 
 /// Returns the edges of the shortest path between two vertices, starting with the edge at `to`. If several shortest
-/// paths lead to a vertex, its predecessor with the lowest id is chosen.
+/// paths lead to a vertex, the path on which the previous vertex has the lowest id is chosen.
 ///
 /// E. W. Dijkstra, "A note on two problems in connexion with graphs", 1959.
 ///

@@ -13,7 +13,8 @@ fn hill(height: impl Fn(usize, usize) -> f64) -> Patch {
 /// Returns a patch with collapsed sides: bits 0 to 3 of `mask` stand for the sides v = 0, u = 1, v = 1, u = 0.
 fn collapsed(mask: u32) -> Patch {
     let mut points = *hill(|r, c| ((r * 5 + c * 3) % 7) as f64 * 0.1).points();
-    // All sides are collapsed twice. Otherwise, two adjacent collapsed sides could have different points.
+    // The loop collapses each side of `mask` twice. After only one pass, two adjacent collapsed sides could still have
+    // different points.
     for _ in 0..2 {
         for k in (0..4).filter(|k| mask & (1 << k) != 0) {
             let side = [0, 1, 2, 3].map(|i| [(0, i), (i, 3), (3, 3 - i), (3 - i, 0)][k]);

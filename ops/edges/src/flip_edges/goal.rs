@@ -37,8 +37,8 @@ use mesh::{DVec3, EdgeId, Mesh, VertexId};
 /// such a triangle is only rounding error.
 const NO_AREA: f64 = 1e-14;
 
-/// The range of the sum of the squared side lengths of a triangle. Inside the range, products of four lengths neither
-/// underflow nor overflow. The longest side is then between about 1e-60 and 1e60 scene units.
+/// The energy of a triangle is computed only if the sum of its squared side lengths is in this range. Products of four
+/// side lengths then neither underflow nor overflow. The longest side is then between about 1e-60 and 1e60 scene units.
 const SIZES: Range<f64> = 1e-120..1e120;
 
 /// Energies whose relative difference is less than this value count as equal. If all four corners lie on a circle, as
@@ -78,7 +78,7 @@ impl Goal {
     /// flip decreases the sum of the squares, which is an integer. For `Delaunay`, the computed energy of a triangle
     /// depends only on its three vertices. Three values are compared in this order: the number of zero-area triangles,
     /// the exact sum of the energies of all other triangles, and the sum of the squared lengths of all edges. An
-    /// improving flip decreases the first of these three values that it changes.
+    /// improving flip decreases one of these values and does not change the values before it.
     pub(crate) fn is_improvement(&self, mesh: &Mesh, quad: &Quad) -> bool {
         match self {
             Self::Delaunay => {

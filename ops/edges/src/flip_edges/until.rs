@@ -1,11 +1,12 @@
 //! Flips edges until no flip improves the mesh, or until the limit of passes is reached.
 //!
-//! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks the edges near
-//! vertices whose edges changed, and the edges whose flip the previous pass refused. At all other edges, the check
-//! would have the same result as in the previous pass. (A flip is refused if an edge already joins the two opposite
-//! corners. If this joining edge is flipped, both of its former ends count as changed vertices.) A pass that flips no
-//! edge is the last pass. Every pass again checks all edges whose flip the previous pass refused, so the report counts
-//! only the refusals of the last pass.
+//! A pass checks edges in order of their ids. The first pass checks all edges. A flip changes the edges at four
+//! vertices. Each later pass checks the edges near the vertices that the previous pass changed in this way, and the
+//! edges whose flip the previous pass refused. For all other edges, the result of the check would be the same as in the
+//! previous pass. (A flip is refused if an edge already joins the two opposite corners. If this joining edge is
+//! flipped, both of its former ends count as changed vertices.) A pass that flips no edge is the last pass. Every pass
+//! again checks all edges whose flip the previous pass refused, so the report counts only the refusals of the last
+//! pass.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};
 use op::{Context, OpError, Report};
@@ -89,7 +90,7 @@ fn polygon_beside(mesh: &Mesh, e: EdgeId) -> Option<FaceId> {
     beside.into_iter().find(|&f| !mesh.is_triangle(f))
 }
 
-/// Collects the edges near vertices whose edges changed.
+/// Collects the edges near the vertices at which a flip added or removed an edge.
 struct ChangedNeighborhood {
     vertices: Vec<VertexId>,
     /// For each vertex, whether it is in `vertices`.

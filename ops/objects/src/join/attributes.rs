@@ -81,7 +81,8 @@ fn renumber_materials(
     }
 }
 
-/// Removes columns of normals that some parts lack, because a zero vector is not a valid normal.
+/// If a part lacks an attribute of normals, removes this attribute from all parts. Otherwise, the joined mesh would get
+/// zero vectors, which are not valid normals.
 fn leave_out_normals(columns: &mut [Attributes], parts: &[&Object], report: &mut Report) {
     for (domain, name) in names(columns, |c| c.rule == Rule::Normal) {
         let Some(without) = (0..parts.len()).find(|&i| lacks(columns, parts, i, domain, &name))

@@ -147,8 +147,8 @@ pub(super) fn morphed<'a>(parts: &[&'a Object]) -> Vec<&'a str> {
 }
 
 /// Returns the names and default weights of the morph targets. Returns `None` if the names or default weights differ
-/// between the parts, or if a node of a part has other weights than the default weights. `morphed` contains the names
-/// of the parts with morph targets.
+/// between the parts. Also returns `None` if the weights at a node of a part differ from the default weights. `morphed`
+/// contains the names of the parts with morph targets.
 pub(super) fn shared_label(graph: &Graph, morphed: &[&str]) -> Option<MeshLabel> {
     let mut shared = None;
     for part in morphed {

@@ -27,7 +27,7 @@ impl Transform {
         cx: &Context,
     ) -> Result<Report, OpError> {
         let graph = scene.graph();
-        // The map, in scene space, that each node must be moved by.
+        // For each node, the map in scene space by which the step must move the node.
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
         let mut n_points = 0;
         let nodes_of = graph.nodes_of_objects();
@@ -157,7 +157,7 @@ fn move_by(graph: &mut Graph, maps: &[Option<DAffine3>], only_moves: bool) -> Re
     let nodes = graph.nodes();
     let mut placements: Vec<Placement> = nodes.iter().map(|node| node.placement).collect();
     let mut new: Vec<DAffine3> = Vec::with_capacity(nodes.len());
-    // The map, in scene space, that each node was moved by.
+    // For each node, the map in scene space by which the node was moved.
     let mut moved: Vec<Option<DAffine3>> = Vec::with_capacity(nodes.len());
     for (i, node) in nodes.iter().enumerate() {
         let of_parent = node.parent.and_then(|parent| moved[parent]);

@@ -8,7 +8,8 @@ use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Image, Material, Object};
 
 /// The part of an object that differs. If the key has a domain, the part is the positions or the attribute with this
-/// name. Otherwise, it is another part of the object, such as its materials. The names are the same as in losses.
+/// name. Otherwise, it is another part of the object, such as its materials. The names are the same as in reported
+/// losses.
 pub(super) type Key = (Option<Domain>, String);
 
 /// The kind of difference between two scenes.
@@ -29,7 +30,7 @@ pub(super) fn key(domain: impl Into<Option<Domain>>, name: &str) -> Key {
 /// The bits of the numbers of a value.
 type Row = Vec<u64>;
 
-/// The type and the edit rule of values.
+/// The type of attribute values, and the rule by which edits change them.
 type Kind = (&'static str, Rule);
 
 /// A mesh as plain lists. Corner values are in the order of the faces and their corners.
@@ -234,7 +235,7 @@ impl Flat {
         }
     }
 
-    /// Reorders the values of edges by their vertices.
+    /// Returns the values of the edges, sorted by the vertices of the edges. Each row starts with these two vertices.
     fn of_edges(&self, rows: &[Row]) -> Vec<Row> {
         let with_ends = self.edges.iter().map(|([a, b], place)| {
             let ends = [*a, *b].map(|v| v as u64);
@@ -351,7 +352,7 @@ impl Flat {
     }
 }
 
-/// Whether a column is empty or has only default values of materials or smoothing groups.
+/// Whether an attribute has no values, or only default values of materials or smoothing groups.
 pub(super) fn has_only_default_values(column: &Column) -> bool {
     match (&column.values, column.name.as_str()) {
         (Values::Int(values), "material") => values.iter().all(|&m| m == -1),

@@ -166,7 +166,7 @@ fn triangles_without_area_on_both_sides_of_an_edge_are_removed() {
 
 #[test]
 fn flips_do_not_create_triangles_whose_area_is_rounding_error() {
-    // Up to rounding, vertex 0 is on the line from vertex 2 to vertex 3, so the flipped edge would go through it.
+    // Up to rounding, vertex 0 is on the line from vertex 2 to vertex 3, so the flipped edge would go through vertex 0.
     for k in 2..60 {
         let on_line = |k: i32| DVec3::new(0.1 * f64::from(k), 0.3 * f64::from(k), 0.7);
         let far = on_line(k) + DVec3::new(1.0, -1.0, 0.0);

@@ -100,7 +100,7 @@ impl MeshPlan {
         self.degrees == Range::exactly(3)
     }
 
-    /// Returns the total number of corners of some of the faces, as a range. `faces` is the number of these faces. The
+    /// Returns how many corners a group of faces has in total, as a range. `faces` is the number of these faces. The
     /// total is at most twice the number of edges of the mesh.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)

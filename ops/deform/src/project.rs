@@ -207,8 +207,8 @@ mod tests {
     fn vertices_beyond_the_distance_stay_and_are_counted() {
         let mut scene = scene();
         let before = positions(&scene, "cube");
-        // The distance from the unit sphere is √3 - 1 for the 8 corners of the cube, and 1 for the vertices above the
-        // centers of the sides.
+        // The 8 corners of the cube are at the distance √3 - 1 from the unit sphere. The vertices above the centers of
+        // the sides are at the distance 1.
         let report = op::test::run(&step(r#"(onto: "ball", distance: 0.8)"#), &mut scene).unwrap();
         assert_eq!(report.changed, 8);
         assert_eq!(

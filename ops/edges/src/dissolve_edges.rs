@@ -17,8 +17,8 @@ use op::prelude::*;
 /// order and their values but get new ids.
 ///
 /// An edge cannot be removed if it is on the boundary or if the same face is on both of its sides. It also cannot be
-/// removed if one of its ends has only two edges, or if its two faces have a common vertex that is not an end of the
-/// edge. A seam is removed only if `seams` is `Drop`.
+/// removed if one of its ends has only two edges. The two faces beside the edge must have no common vertices except the
+/// ends of the edge. A seam is removed only if `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveEdges {

@@ -22,12 +22,12 @@ use goal::Goal;
 /// Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 ///
 /// Edges are flipped in order of their ids. Each flip is checked against the mesh that the earlier flips have produced.
-/// A flip is refused if the edge is on the boundary, if the same face is on both of its sides, or if one of its ends
-/// has only two edges. A flip is also refused if the new edge would join a vertex to itself, or would join two vertices
-/// that an edge already joins. The flip of a seam is refused unless `seams` is `Drop`. All elements keep their ids, and
-/// no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new corner. The new
-/// corner of a face gets its values from the corner of the other face at the same vertex. All other corners keep their
-/// values.
+/// A flip is refused if the edge is on the boundary or if the same face is on both sides of the edge. A flip is also
+/// refused if an end of the edge has only two edges. A flip is also refused if the new edge would join a vertex to
+/// itself, or would join two vertices that an edge already joins. The flip of a seam is refused unless `seams` is
+/// `Drop`. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their values. Each of the
+/// two faces gets one new corner. The new corner of a face gets its values from the corner of the other face at the
+/// same vertex. All other corners keep their values.
 ///
 /// If a face beside the edge has more than three corners, the edge turns inside the polygon that the two faces form
 /// together. Each end of the edge moves to the next corner of this polygon, counter-clockwise. With `until: Delaunay`

@@ -16,7 +16,7 @@ use op::prelude::*;
 /// vertices and faces get the highest ids. They are numbered in order of the selected faces, and counter-clockwise
 /// around each face from its first corner. A zero-area face has no normal, so its inner face is not raised.
 ///
-/// Attribute values at a new corner or vertex are interpolated by `fraction`: 0 stands for the value at the outer
+/// Attribute values at a new corner or vertex are interpolated by `fraction`. Here, 0 stands for the value at the outer
 /// corner, and 1 stands for the mean of the values at all corners of the face. The faces of the ring have the values of
 /// the old face (material, tags). The edges of the inner face have the values of the old edges beside them. Normals are
 /// dropped.

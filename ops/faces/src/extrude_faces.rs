@@ -26,10 +26,10 @@ use region::Region;
 /// Selected faces that are connected across edges form a region. A region moves as a whole, and has one normal and one
 /// center. A region is first scaled, then rotated, and then moved. Scaling and rotation are about the center of the
 /// region, which is the mean position of its vertices. Side faces with four corners are added along the rim of the
-/// region. The rim of a region consists of the edges with a face of the region on exactly one side. If all faces of an
-/// open sheet are extruded, the result is a box that is open where the sheet was. A closed region (for example, all
-/// faces of a cube) has no rim, so it moves without new side faces. A region has no normal if the area vectors of its
-/// faces cancel each other out, as in a closed region. For a region without a normal, `by` must be an `Offset`.
+/// region. An edge belongs to the rim if exactly one of its two sides has a face of the region. If all faces of an open
+/// sheet are extruded, the result is a box that is open where the sheet was. A closed region (for example, all faces of
+/// a cube) has no rim, so it moves without new side faces. A region has no normal if the area vectors of its faces
+/// cancel each other out, as in a closed region. For a region without a normal, `by` must be an `Offset`.
 ///
 /// The moved faces keep their ids. A later step can therefore extrude the same faces again, for example to grow an arm
 /// out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do not

@@ -19,8 +19,8 @@ use op::prelude::*;
 /// corners of the face. The triangles have the values of their face, and the new edges have zero values (no crease, no
 /// tags). If `distance` is not 0, normals are dropped.
 ///
-/// A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or if
-/// the mesh already has the largest supported number of elements.
+/// A face cannot be poked if it contains a vertex twice, or if the position of the new vertex would not be finite. No
+/// face can be poked if the mesh already has the largest supported number of elements.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PokeFaces {

@@ -16,15 +16,16 @@ use op::{Loss, Operation, ReadingChange, ReadingElements};
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier curve)
 /// and `.mws` (a complete scene). Files in all of these formats except `.glb` and `.mws` can be compressed with gzip.
 /// The name of a compressed file ends with `.gz`, as in `a.obj.gz`. An OBJ file becomes one object of the scene.
-/// Objects and groups inside an OBJ file become tags (named sets) of faces: a line `o hat` gives the tag `o:hat`, and a
-/// line `g hat` gives the tag `hat`. With `placements: Keep` (the default), each mesh of a glTF file becomes an object
-/// if at least one node references the mesh. If exactly one node references the mesh, the object gets the name of the
-/// node. If several nodes reference the mesh, the object gets the name of the mesh. With `placements: Keep`, the scene
-/// also keeps the nodes, cameras, lights, skins, morph targets and animations of the glTF file. In a COLLADA file
-/// (`.dae`), each node with a mesh becomes an object. If the scene cannot store some of the content of the file, the
-/// report lists and counts this content. Image files of materials are read from the folder of the model or of its
-/// material library. If two successive corners of a face are at the same vertex, the second of these corners is
-/// removed. If the face then has fewer than three corners or still contains a vertex twice, the face is left out.
+/// Objects and groups inside an OBJ file become tags (named sets) of faces. For example, a line `o hat` gives the tag
+/// `o:hat`, and a line `g hat` gives the tag `hat`. With `placements: Keep` (the default), each mesh of a glTF file
+/// becomes an object if at least one node references the mesh. If exactly one node references the mesh, the object gets
+/// the name of the node. If several nodes reference the mesh, the object gets the name of the mesh. With `placements:
+/// Keep`, the scene also keeps the nodes, cameras, lights, skins, morph targets and animations of the glTF file. In a
+/// COLLADA file (`.dae`), each node with a mesh becomes an object. If the scene cannot store some of the content of the
+/// file, the report lists and counts this content. The image files of materials are read from the folder that contains
+/// the model or its material library. If two successive corners of a face are at the same vertex, the second of these
+/// corners is removed. If the face then has fewer than three corners or still contains a vertex twice, the face is left
+/// out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
@@ -273,7 +274,7 @@ fn planned(object: &PeekObject, peek: &PeekMesh, policies: Policies) -> MeshPlan
     provide_uncertain(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
     provide_uncertain(peek.colors, Domain::Vertex, mesh::COLOR.name);
     provide_uncertain(peek.materials, Domain::Face, mesh::MATERIAL.name);
-    // The attributes of joints and morph targets are not certain: the reader can leave out morph targets, and a joint
+    // The attributes of joints and morph targets are not certain. The reader can leave out morph targets, and a joint
     // has weights only if a vertex uses the joint.
     let deformers = |n: u64, name: fn(usize) -> String| {
         let n = usize::try_from(n.min(MAX_PLANNED)).unwrap_or(0);

@@ -50,7 +50,7 @@ pub(crate) fn plan(save: &Save, plan: &mut Plan, cx: &PlanContext) -> Vec<Proble
     problems
 }
 
-/// The losses that will certainly occur, and the losses that will possibly occur.
+/// The certain and the possible losses of a step.
 #[derive(Default)]
 struct Losses {
     certain: Vec<Loss>,

@@ -17,11 +17,11 @@ use crate::MeasureOf;
 
 /// Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 ///
-/// Later steps can select elements by the attribute (`Where`), move vertices by it (`Displace`), show it in a picture
-/// (`Picture`), and save it to files (`Save`). If a later step changes the mesh, the quantity is not computed again.
-/// Positions and other attributes do not change. Quantities are computed from the coordinates that the mesh stores. The
-/// transforms of the nodes that place the mesh in the scene are not applied. For each object, the report states the
-/// lowest, the mean and the highest value.
+/// Later steps can use the attribute to select elements (`Where`) or to move vertices (`Displace`). They can also show
+/// it in a picture (`Picture`) or save it to a file (`Save`). If a later step changes the mesh, the quantity is not
+/// computed again. Positions and other attributes do not change. Quantities are computed from the coordinates that the
+/// mesh stores. The transforms of the nodes that place the mesh in the scene are not applied. For each object, the
+/// report states the lowest, the mean and the highest value.
 ///
 /// If the mesh already has an attribute of this name, the attribute is replaced. The step fails if the existing
 /// attribute belongs to a different kind of element, or does not have one floating-point number per element.

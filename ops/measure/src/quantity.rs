@@ -37,7 +37,7 @@ pub enum MeasureOf {
     /// zero-area faces.
     AspectRatio,
     /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. A step without
-    /// `on` measures from all meshes except the other mesh itself.
+    /// `on` computes the distances for all meshes except the other mesh itself.
     Distance {
         /// The name of the object to which distances are measured.
         to: String,
@@ -72,8 +72,8 @@ pub enum MeasureOf {
     },
     /// The winding number of another mesh of the scene around each vertex (Jacobson, Kavan, Sorkine-Hornung, 2013;
     /// Barill, Dickson, Schmidt, Levin, Jacobson, 2018). It is 1 inside, 0 outside, and between 0 and 1 near gaps of
-    /// the other mesh. The error is usually below 0.001. A step without `on` measures at the vertices of all meshes
-    /// except the other mesh itself.
+    /// the other mesh. The error is usually below 0.001. A step without `on` computes the winding numbers for all
+    /// meshes except the other mesh itself.
     Winding {
         /// The name of the object whose winding number is computed.
         of: String,

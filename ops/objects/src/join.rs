@@ -239,8 +239,8 @@ impl Join {
         Ok((object, report))
     }
 
-    /// Returns the plan of the result, which predicts its counts and attributes. Each entry of `parts` contains the
-    /// plan of a part, and the number of instances of the part in the scene.
+    /// Returns the plan of the result: its counts and attributes, as predicted before the run. Each entry of `parts`
+    /// contains the plan of a part, and the number of instances of the part in the scene.
     fn joined_plan(&self, parts: &[(MeshPlan, u64)]) -> MeshPlan {
         let mut joined = parts[0].0.clone();
         let none = Range::exactly(0);

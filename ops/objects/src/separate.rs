@@ -189,7 +189,7 @@ impl Separate {
         part
     }
 
-    /// Returns a loss for each attribute column that at least one part does not have.
+    /// Returns a loss for each attribute of `whole` that at least one part does not have.
     fn losses(&self, whole: &Mesh, parts: &[Mesh]) -> Vec<Loss> {
         let columns = whole
             .attributes()
@@ -225,7 +225,7 @@ impl Separate {
     }
 }
 
-/// Adds nodes for all parts except the first, which keeps the nodes of the separated object.
+/// The first part keeps the nodes of the separated object. Adds nodes for all other parts.
 fn show_parts(graph: &mut Graph, names: &[String]) {
     for name in &names[1..] {
         graph.add_part(&names[0], name);

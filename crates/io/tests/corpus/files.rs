@@ -10,8 +10,8 @@ use scene::Scene;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// The maximum number of bytes of memory that reading can use for each byte of the file. [`SMALL`] and, for glTF and
-/// COLLADA, [`INSTANCES`] are added to this limit.
+/// For each byte of the file, reading can use this number of bytes of memory. [`SMALL`] and, for glTF and COLLADA,
+/// [`INSTANCES`] are added to the limit.
 const TIMES: usize = 64;
 
 /// The number of bytes that reading can use for tables, threads and messages, even if the file is empty.

@@ -72,7 +72,7 @@ fn a_container_with_a_wrong_length_is_refused() {
     }
 }
 
-/// Reads the document, which must be refused. Returns the error, and checks that reading takes little time.
+/// Reads a document that the reader must refuse. Returns the error, and checks that reading takes little time.
 fn error_quickly(json: &Value) -> String {
     let start = Instant::now();
     let error = read_baked(json).unwrap_err();
@@ -105,7 +105,7 @@ fn nodes_that_repeat_a_long_material_are_refused() {
 
 #[test]
 fn many_primitives_with_different_attributes_are_refused() {
-    // Every primitive has an attribute of its own, which needs values for the vertices of all primitives.
+    // Every primitive has a different attribute, and each attribute needs values for the vertices of all primitives.
     let mut json = square(&[0, 1, 2], 4);
     let primitive = |i: usize| {
         let mut primitive = json["meshes"][0]["primitives"][0].clone();

@@ -161,7 +161,7 @@ fn fallback_buffers_are_never_read() {
         only(&path).as_mesh().unwrap(),
         &torus("torus_fallback.gltf"),
     );
-    // In the file `c.gltf`, a view without compression needs the missing buffer, which is an error.
+    // In the file `c.gltf`, a buffer view without compression needs the missing buffer, so reading fails.
     json["bufferViews"][0]
         .as_object_mut()
         .unwrap()

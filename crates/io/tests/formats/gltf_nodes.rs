@@ -275,7 +275,7 @@ fn formats_without_nodes_are_written_with_placed_instances() {
         for loss in [("nodes", 8), ("cameras", 2), ("lights", 2)] {
             assert!(lost.contains(&loss), "{extension}: {lost:?}");
         }
-        // Cameras do not belong to an object, so their loss has no object name.
+        // Cameras do not belong to an object, so the reported loss of cameras has no object name.
         let mut losses = report.losses.iter();
         let cameras = losses.find(|l| l.attribute == "cameras").unwrap();
         assert!(cameras.object.is_empty());

@@ -57,8 +57,8 @@ pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
 /// The positions of the four corners of a square, counter-clockwise.
 pub(crate) const SQUARE: [f32; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0];
 
-/// Returns a document with the corners of [`SQUARE`] and one primitive, which has these indices and this mode. In the
-/// buffer, the indices follow the positions.
+/// Returns a document with the corners of [`SQUARE`] as vertices, and one primitive with these indices and this mode.
+/// In the buffer, the indices follow the positions.
 pub(crate) fn square(indices: &[u16], mode: u32) -> Value {
     let mut bytes = floats(&SQUARE);
     bytes.extend(indices.iter().flat_map(|i| i.to_le_bytes()));
@@ -292,8 +292,8 @@ fn content_left_out_is_noted() {
     json["materials"][0]["extensions"] = extensions;
     let kept = read_json(&json).unwrap();
     let loaded = read_baked(&json).unwrap();
-    // The first call keeps the nodes with their cameras, lights and skins. The second call leaves them out, which gives
-    // three more notes.
+    // The first call keeps the nodes with their cameras, lights and skins. The second call leaves them out and reports
+    // this in three more notes.
     assert_eq!(kept.notes.len(), loaded.notes.len() - 3);
     let is_left_out =
         |note: &mesh_io::Note| note.what.contains("cameras") || note.what.contains("lights");

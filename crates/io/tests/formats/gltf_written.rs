@@ -110,8 +110,8 @@ fn triangles_with_seams_and_materials_survive_a_round_trip() {
                 .map(|i| DVec4::new(0.5, 0.25, 1.0, (i % 2) as f64))
                 .collect(),
         );
-        // The faces of this mesh are already ordered by material. Therefore, the writer, which orders faces by
-        // material, does not change their order.
+        // The writer orders faces by material. The faces of this mesh already have this order, so writing does not
+        // change it.
         mesh.set(MATERIAL, (0..20).map(|i| i / 8 - 1).collect());
         let materials = vec![
             Material {

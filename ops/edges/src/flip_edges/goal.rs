@@ -12,14 +12,14 @@
 //! triangles add up to the trace of the cotangent Laplacian of the mesh (Pinkall and Polthier, "Computing Discrete
 //! Minimal Surfaces and Their Conjugates", 1993). The hat function of a vertex is 1 at this vertex, 0 at all other
 //! vertices, and linear in each triangle. The trace is the sum of the Dirichlet energies of all hat functions. In the
-//! plane, a flip does not change the Dirichlet energy of linear functions. For any values at the four corners, the
-//! change of the Dirichlet energy by a flip is a quadratic form of rank 1 in these values. The sign of this quadratic
-//! form depends on whether the fourth corner of the two triangles is inside the circle through the other three corners
-//! (Rippa, "Minimal Roughness Property of the Delaunay Triangulation", 1990). In the plane, a flip therefore reduces
-//! the energy if and only if the edge does not satisfy the Delaunay condition. If edges that do not satisfy the
-//! condition are flipped repeatedly, the result is the Delaunay triangulation (Lawson, "Software for C1 Surface
-//! Interpolation", 1977). Four times the sum of the energies of all triangles is the harmonic index of Musin,
-//! "Properties of the Delaunay Triangulation", 1997. The energy is also defined for surfaces in space.
+//! plane, a flip does not change the Dirichlet energy of linear functions. For any values at the four corners, a flip
+//! changes the Dirichlet energy by a quadratic form of rank 1 in these values. Its sign depends on whether one corner
+//! is inside the circle through the other three corners (Rippa, "Minimal Roughness Property of the Delaunay
+//! Triangulation", 1990). In the plane, a flip therefore reduces the energy if and only if the edge does not satisfy
+//! the Delaunay condition. If edges that do not satisfy the condition are flipped repeatedly, the result is the
+//! Delaunay triangulation (Lawson, "Software for C1 Surface Interpolation", 1977). Four times the sum of the energies
+//! of all triangles is the harmonic index of Musin, "Properties of the Delaunay Triangulation", 1997. The energy is
+//! also defined for surfaces in space.
 //!
 //! A flip that reduces the number of zero-area triangles is an improvement. If all four corners are collinear, both
 //! diagonals give zero-area triangles, and the shorter diagonal is better. Together, these two rules let flips resolve
@@ -52,7 +52,7 @@ const BOTH_WITHOUT_AREA: [f64; 2] = [f64::INFINITY; 2];
 pub(crate) enum Goal {
     /// The lowest possible sum of the cotangents of all angles.
     Delaunay,
-    /// Vertex valences close to their targets, which are 6 inside the surface and 4 on the boundary.
+    /// Valences close to their targets. The target is 6 for inner vertices and 4 for boundary vertices.
     Valence {
         /// For each vertex, its valence minus its target.
         excess: Vec<i32>,
@@ -75,10 +75,10 @@ impl Goal {
     /// Whether flipping the edge between the two triangles of `quad` is an improvement.
     ///
     /// For both goals, the sequence of improving flips is finite, regardless of rounding. For `Valence`, each improving
-    /// flip decreases the sum of the squares, which is an integer. For `Delaunay`, the computed energy of a triangle
-    /// depends only on its three vertices. Three values are compared in this order: the number of zero-area triangles,
-    /// the exact sum of the energies of all other triangles, and the sum of the squared lengths of all edges. An
-    /// improving flip decreases one of these values and does not change the values before it.
+    /// flip decreases the sum of the squared differences, which is an integer. For `Delaunay`, the computed energy of a
+    /// triangle depends only on its three vertices. Three values are compared in this order: the number of zero-area
+    /// triangles, the exact sum of the energies of all other triangles, and the sum of the squared lengths of all
+    /// edges. An improving flip decreases one of these values and does not change the values before it.
     pub(crate) fn is_improvement(&self, mesh: &Mesh, quad: &Quad) -> bool {
         match self {
             Self::Delaunay => {
@@ -126,7 +126,7 @@ pub(crate) struct Quad {
 }
 
 impl Quad {
-    /// Returns the triangles beside an edge, which must have a triangle on each side.
+    /// Returns the triangles beside the edge `e`, which must have a triangle on each side.
     pub(crate) fn beside(mesh: &Mesh, e: EdgeId) -> Self {
         let [ab, ba] = e.half_edges();
         Self {

@@ -122,8 +122,8 @@ impl ChangedNeighborhood {
         }
     }
 
-    /// Returns edges in order of their ids: the edges that end at the collected vertices, the edges opposite to these
-    /// vertices in their triangles, and the edges in `additional`. Removes the collected vertices from the collector.
+    /// Returns edges that are allowed to be flipped, in order of their ids: the edges of all triangles around the
+    /// collected vertices, and the edges in `additional`. Removes the collected vertices from the collector.
     fn take_edges(&mut self, mesh: &Mesh, additional: impl Iterator<Item = EdgeId>) -> Vec<EdgeId> {
         let mut edges = Vec::new();
         let mut collect = |e: EdgeId| {

@@ -94,8 +94,8 @@ fn an_edge_that_coincides_with_several_edges_is_refused_or_counted() {
         ]
     };
     let positions = [page(1., 0.), page(0., 1.), page(-1., 0.)].concat();
-    // The second rectangle has the opposite orientation, so its edge on the common line coincides with the edges of
-    // both other rectangles.
+    // The second rectangle has the opposite orientation. On the common line, the edge of this rectangle therefore
+    // coincides with the edges of both other rectangles.
     let polygons = [[0, 1, 2, 3], [7, 6, 5, 4], [8, 9, 10, 11]];
     let (mesh, _) = Mesh::from_polygons(positions, &polygons).unwrap();
     let refused = try_applied(&parse("(distance: 0)"), mesh.clone());

@@ -114,8 +114,8 @@ fn note_zeros(columns: &[Attributes], parts: &[&Object], report: &mut Report) {
     }
 }
 
-/// Returns the domain and the name of each column that satisfies `predicate`, without duplicates, in the order of the
-/// parts.
+/// Returns the domain and the name of each attribute column for which `predicate` returns true, without duplicates, in
+/// the order of the parts.
 fn names(columns: &[Attributes], predicate: impl Fn(&Column) -> bool) -> Vec<(Domain, String)> {
     let mut names = Vec::new();
     for (domain, column) in columns.iter().flat_map(Attributes::iter) {
@@ -127,7 +127,7 @@ fn names(columns: &[Attributes], predicate: impl Fn(&Column) -> bool) -> Vec<(Do
     names
 }
 
-/// Whether part `i` has elements of the domain, but no column `name` in this domain.
+/// Whether part `i` lacks the attribute `name` in this domain although it has elements of the domain.
 fn lacks(columns: &[Attributes], parts: &[&Object], i: usize, domain: Domain, name: &str) -> bool {
     let n = parts[i].as_mesh().map_or(0, |mesh| mesh.domain_len(domain));
     n > 0 && columns[i].column(domain, name).is_none()

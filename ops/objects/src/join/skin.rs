@@ -1,9 +1,9 @@
 //! Joining skinned meshes.
 //!
 //! If all skinned parts have the same skin, and each of them has exactly one node, the joined mesh keeps this skin. The
-//! parts without a skin follow the first joint of this skin. The inverse of the map of the first joint is applied to
-//! the points of these parts, so that they do not move in the scene. In all other cases, the parts are joined in the
-//! pose of their joints, and the skins are lost.
+//! parts without a skin follow the first joint of this skin. So that these parts do not move in the scene, the inverse
+//! of the map of the first joint is applied to their points. In all other cases, the parts are joined in the pose of
+//! their joints, and the skins are lost.
 
 use std::sync::Arc;
 

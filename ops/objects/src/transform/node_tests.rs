@@ -132,7 +132,7 @@ fn only_the_named_object_and_the_nodes_below_it_move() {
         .collect();
     assert_near(&points(&scene, "body"), &turned);
     assert_near(&points(&scene, "plain"), &points(&car(), "plain"));
-    // The node of one wheel is below the node of the body, and the node of the other wheel is not.
+    // Only one of the two wheels has a node below the node of the body.
     let (after, before) = (points(&scene, "wheel"), points(&car(), "wheel"));
     assert_near(&after[8..], &before[8..]);
     assert!(after[0].distance(before[0]) > 1.0);

@@ -76,8 +76,7 @@ impl Transform {
         Ok(Report::changed(n_points).count(what, n_inserted))
     }
 
-    /// Moves the nodes of a plan, which predicts the scene before the run. Returns a problem if a node certainly cannot
-    /// store its new placement.
+    /// Moves the nodes in the plan of a scene. Returns a problem if a node certainly cannot store its new placement.
     pub(super) fn plan_nodes(&self, plan: &mut Plan, cx: &PlanContext) -> Option<Problem> {
         let graph = plan.graph();
         if self.space == Space::Object || plan.incomplete || graph.nodes().is_empty() {

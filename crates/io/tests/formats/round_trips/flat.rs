@@ -328,8 +328,8 @@ impl Flat {
         self.faces = turned.into_iter().map(|t| t.0).collect();
     }
 
-    /// Moves the corner values with this name to the vertices, if all corners of each vertex have the same value and no
-    /// vertex values have this name.
+    /// Moves the corner values with this name to the vertices if all corners of each vertex have the same value. Does
+    /// nothing if the vertices already have values with this name.
     fn agree(&mut self, name: &str) -> bool {
         let (from, to) = (key(Domain::Corner, name), key(Domain::Vertex, name));
         let (kind, rows) = &self.columns[&from];

@@ -13,8 +13,8 @@ use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 
 use super::flat::{Key, key};
 
-/// A row of the table: its name, objects with a feature, and the difference after a round trip if a format does not
-/// store the feature.
+/// A row of the table: a feature, and objects with this feature. `key` is the difference after a round trip if the
+/// format does not store the feature.
 pub(super) struct Feature {
     pub(super) name: &'static str,
     pub(super) key: Key,
@@ -112,7 +112,7 @@ fn two(a: &str, b: &str, x: f64) -> Vec<Object> {
     vec![Object::mesh(a, base()), Object::mesh(b, placed(x))]
 }
 
-/// An L-shaped polygon with six corners, which a fan from the first corner does not triangulate correctly.
+/// A polygon in the shape of an L, with six corners. The polygon is not convex.
 fn hollow() -> Mesh {
     let points = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
     let points = points.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0));

@@ -146,7 +146,7 @@ fn made(positions: Vec<DVec3>, faces: &[Vec<u32>], columns: &[Sketch]) -> Vec<Ob
     objects
 }
 
-/// Whether two edges of the mesh have the same two vertices, which can result from splitting. A file cannot distinguish
+/// Whether two edges of the mesh have the same two vertices. Splitting can create such edges. A file cannot distinguish
 /// two such edges, so reading splits their vertices again.
 fn has_double_edges(objects: &[Object]) -> bool {
     let mesh = objects[0].as_mesh().unwrap();

@@ -31,7 +31,7 @@ pub struct Tessellation {
     pub empty_patches: Vec<u32>,
 }
 
-/// The kind of faces into which each cell of a patch is tessellated.
+/// How each cell of a patch becomes faces. A cell is the part of the patch between neighboring samples in u and in v.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Faces {
     /// Two triangles, divided by the diagonal from corner (i, j) to corner (i + 1, j + 1).

@@ -110,7 +110,7 @@ fn sizes(folder: &Folder) -> PathBuf {
 }
 
 /// If something was stored since the last call, keeps the cache below its size limit. Errors are ignored, because the
-/// next run that stores something tries again to keep the limit.
+/// next run that stores something tries again to reduce the size.
 pub(crate) fn after_run(folder: &Folder, limit: u64) {
     let added = folder.take_written();
     if added > 0 {

@@ -157,7 +157,7 @@ impl Folder {
         self.key().ok()
     }
 
-    /// Reads a file of the cache of at most `max` bytes.
+    /// Reads a file of the cache. A file with more than `max` bytes counts as damaged.
     pub(crate) fn read(path: &Path, max: u64) -> Result<Vec<u8>, Unusable> {
         let (file, len) = open_cache_file(path)?;
         if len > max {

@@ -36,7 +36,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-/// Runs, as tests, the examples in the book's chapter about the library.
+/// Tests the examples in the book's chapter about the library: they run as documentation tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../../book/src/library.md")]
 struct Library;

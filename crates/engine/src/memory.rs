@@ -6,7 +6,7 @@ use std::sync::Arc;
 use scene::{Geometry, Scene};
 
 /// Adds up the memory of scenes. A mesh that several scenes share is counted once. `SceneMemory` recognizes a mesh by
-/// its address, so no scene that was added may be dropped before the last call of [`add`](Self::add).
+/// its address, so the caller must keep all added scenes until the last call of [`add`](Self::add).
 #[derive(Debug, Default)]
 pub struct SceneMemory {
     bytes: u64,

@@ -18,7 +18,7 @@ impl ErrorLocation {
     /// The maximum number of locations that are stored for one error.
     pub const MAX_ELEMENTS: usize = 10_000;
 
-    /// The name of a location at the expected position of an element that does not exist.
+    /// The name of a location whose element does not exist. Such a location shows where the element was expected.
     pub const EXPECTED: &'static str = "expected";
 
     /// Returns the location of an element of an object; `None` if the mesh does not have the element.

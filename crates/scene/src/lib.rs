@@ -206,8 +206,8 @@ impl Scene {
         }
     }
 
-    /// Renames an object. A node that references the object is renamed too if its name is `from`. If the mesh has a
-    /// [label](MeshLabel), the label is renamed too if its name is `from`, or if no node was renamed. The object keeps
+    /// Renames an object. Each node that references the object and has the name `from` is renamed, too. The
+    /// [label](MeshLabel) of the mesh is renamed if it has the name `from`, or if no node was renamed. The object keeps
     /// its position in the list. Returns whether the object exists.
     ///
     /// # Errors

@@ -153,7 +153,7 @@ pub fn temporary_prefix(process: u32) -> String {
     format!(".meshwright-{process}-")
 }
 
-/// A temporary file. When it is committed, it replaces the file at `path`.
+/// A temporary file. When the temporary file is committed, it replaces the file at `path`.
 struct UnfinishedFile {
     file: NamedTempFile,
     path: PathBuf,

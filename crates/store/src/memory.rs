@@ -28,7 +28,7 @@ impl Memory {
     }
 
     fn content(&self) -> MutexGuard<'_, Content> {
-        // If another thread has panicked while it held the lock, the map can still be used, because every entry is
+        // If another thread has panicked while it held the lock, the entries can still be used, because each entry is
         // valid by itself.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,4 +1,4 @@
-//! Quantities of mesh elements, such as areas and curvatures, as numbers that are shown as colors.
+//! Computes quantities of mesh elements, such as areas and curvatures, so that colors can show them.
 
 use std::collections::BTreeSet;
 use std::path::Path;

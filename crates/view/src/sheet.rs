@@ -140,8 +140,8 @@ impl Layout {
 ///
 /// # Errors
 ///
-/// Returns [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE), or the sheet has no
-/// size because there are no images and no gap.
+/// Returns [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE). Also returns this
+/// error if the sheet has no pixels, because there are no images and no gap.
 pub fn sheet_size(
     cells: &[Cell],
     headings: Headings,

@@ -159,9 +159,9 @@ impl Shot<'_> {
     ///
     /// # Errors
     ///
-    /// Returns [`PictureError::Budget`] if the budget is too small, [`PictureError::Camera`] if a camera is invalid,
-    /// [`PictureError::Cancelled`] if the listener cancels the work, and [`PictureError::Size`] if the views side by
-    /// side are too large for one image. The budget is checked before anything is drawn.
+    /// Returns [`PictureError::Budget`] if the budget is too small, and [`PictureError::Camera`] if a camera is
+    /// invalid. Returns [`PictureError::Cancelled`] if the listener cancels the work. Returns [`PictureError::Size`] if
+    /// the views side by side are too large for one image. The budget is checked before anything is drawn.
     pub fn draw(
         &self,
         subjects: &[Subject],

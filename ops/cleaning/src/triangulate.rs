@@ -23,21 +23,21 @@ use op::prelude::*;
 
 /// Cuts polygons into triangles.
 ///
-/// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is cut
-/// along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the relative
-/// difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero area or is
-/// turned over. A triangle is turned over if it is clockwise where the face is counter-clockwise. If exactly one
-/// diagonal is bad, the good diagonal is used, regardless of lengths and ids. A quadrilateral with a reflex corner (an
-/// angle above 180 degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by
-/// an edge or by a diagonal of another face. A duplicate is replaced with the second diagonal of its quadrilateral,
-/// unless the second diagonal is worse or also a duplicate. The report counts the duplicates that remain.
+/// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the diagonal at the
+/// vertex with the lowest id is used. Two lengths count as the same if the relative difference of their squares is at
+/// most 1e-12. A diagonal is bad if one of its two triangles has zero area or is turned over. A triangle is turned over
+/// if it is clockwise where the face is counter-clockwise. If exactly one diagonal is bad, the good diagonal is used,
+/// regardless of lengths and ids. A quadrilateral with a reflex corner (an angle above 180 degrees) is therefore cut at
+/// that corner. A diagonal is a duplicate if its ends are also joined by an edge or by a diagonal of another face. A
+/// duplicate is replaced with the other diagonal of the quadrilateral, unless the other diagonal is worse or also a
+/// duplicate. The report counts the duplicates that remain.
 ///
-/// A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or into
-/// monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
-/// constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces with
-/// crossing sides, and faces with more than ten million corners. Faces with more than 4096 corners also cannot be
-/// triangulated in this way if their sides overlap. Each of these faces becomes a triangle fan around its vertex with
-/// the lowest id. The report counts these faces.
+/// A face with more than four corners is projected along its normal. If the face has at most 4096 corners, it is cut
+/// into triangles by ear clipping. A larger face is first cut into monotone polygons, which are then cut into
+/// triangles. Then diagonals are flipped until the triangulation is a constrained Delaunay triangulation. Some faces
+/// cannot be triangulated in this way: faces with zero area, faces with crossing sides, and faces with more than ten
+/// million corners. Faces with more than 4096 corners also cannot be triangulated in this way if their sides overlap.
+/// Each of these faces becomes a triangle fan around its vertex with the lowest id. The report counts these faces.
 ///
 /// In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids. The
 /// triangles have the values of the face. Vertices and edges keep their ids. Each corner of a triangle has the values
@@ -55,8 +55,8 @@ impl MeshOperation for Triangulate {
     const SUMMARY: &'static str = "Cut polygons into triangles";
     const EXAMPLE: &'static str = "Triangulate()";
     // Since version 2 of the operation, faces with more than 4096 corners are first cut into smaller polygons. Since
-    // version 3, these polygons are monotone. In both versions, the choice between equally good diagonals can differ
-    // from the previous version.
+    // version 3, these polygons are monotone. Each of these two versions can choose other diagonals than the version
+    // before it, but only where several diagonals are equally good.
     const VERSION: u32 = 3;
     const WORDS: &'static [&'static str] = &["triangles", "ears"];
 

@@ -21,13 +21,14 @@ use op::prelude::*;
 /// Two vertices are linked if they are at most `distance` apart. Vertices that are connected by a chain of links merge
 /// into one, even if the ends of the chain are farther apart than `distance`. Of the vertices that merge, the vertex
 /// with the lowest id remains, with its position and values. The other vertices are removed, so vertices with higher
-/// ids get new ids. If several edges then join the same two vertices, they become one edge. It gets the values of the
-/// edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams are kept.
+/// ids get new ids. If several edges then join the same two vertices, they become one edge. The merged edge gets the
+/// values of the edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV seams
+/// are kept.
 ///
 /// If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
 /// corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations. If
 /// possible, the step then reverses faces, so that all faces of a connected part have the same orientation: the more
-/// frequent one. The report counts the reversed faces. If there are any, the normals of vertices and corners are
+/// frequent one. The report counts the reversed faces. If faces are reversed, the normals of vertices and corners are
 /// dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three faces share an
 /// edge, one of these faces gets a copy of the edge. The report counts the copies. If no vertices merge, the mesh does
 /// not change.
@@ -46,7 +47,8 @@ impl MeshOperation for Weld {
     const DONE: &'static str = "merged";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // If the step reverses faces, it drops the normals. The normals are therefore uncertain after the step.
+        // If the step reverses faces, it drops the normals. The plan therefore cannot tell whether the mesh has normals
+        // after the step.
         for attribute in &mut plan.attributes {
             attribute.certain &= attribute.name != VERTEX_NORMAL.name;
         }

@@ -43,8 +43,9 @@ pub struct CurveFigure {
     /// Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
     #[serde(default)]
     pub by_level: bool,
-    /// The name of a curve that shows an earlier state of the drawn curves. The earlier curve is drawn faintly behind
-    /// each drawn curve. Arrows lead from the old positions of control points to their new positions.
+    /// The name of another curve, such as an older version of the drawn curve. The older curve is drawn faintly behind
+    /// each drawn curve. If both curves have the same degree, arrows lead from the old to the new positions of the
+    /// control points that have moved clearly.
     #[serde(default)]
     pub before: Option<String>,
     /// The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19 pixels in wide
@@ -55,7 +56,7 @@ pub struct CurveFigure {
     /// each level of the curve), but at most 4 panels.
     #[serde(default)]
     pub columns: Option<Count<1, 256>>,
-    /// The width and height of one SVG pixel, in pixels of a `.png` file. Has no effect on `.svg` files.
+    /// In a `.png` file, each SVG pixel becomes a square of `scale` by `scale` pixels. Has no effect on `.svg` files.
     #[serde(default = "scale")]
     pub scale: Count<1, 8>,
     /// Whether points are labeled with their names.
@@ -177,7 +178,7 @@ impl CurveFigure {
         self.by_level && !self.t.is_empty()
     }
 
-    /// Draws the figure of the curves that `on` names, or of all curves without `on`.
+    /// Draws the figure of the curves that the field `on` of the step names. If the step has no `on`, draws all curves.
     fn figure(&self, scene: &Scene, cx: &Context) -> Result<Svg, OpError> {
         let chosen: Vec<&Object> = if let Some(on) = cx.on {
             let objects = on.iter().map(|name| named_object(scene, name));
@@ -273,8 +274,8 @@ mod tests {
         op::test::read(parameters).unwrap()
     }
 
-    /// Runs a step, and returns the bytes of the file. The run has a provenance line, which the step stores in the
-    /// file.
+    /// Runs a step, and returns the bytes of the file. The run has a provenance (a line about the origin of its files),
+    /// which the step stores in the file.
     fn written(step: &CurveFigure, on: Option<&[String]>, budget: u64) -> Result<Vec<u8>, OpError> {
         let folder = tempfile::tempdir().unwrap();
         let files = Files {

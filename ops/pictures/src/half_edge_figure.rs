@@ -11,9 +11,9 @@ use crate::figure_file;
 /// Each half-edge is drawn as an arrow beside its edge and inside its face, and is labeled with its name. A thin curve
 /// leads from the head of the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of
 /// the edge. At a boundary edge, the half-edge without a face is also drawn, in gray. The viewer looks at the faces
-/// from the direction of their mean normal. Faces that face away from the viewer or are seen nearly edge-on are left
-/// out, and the report counts them. The extension of the file determines the format: `.svg` or `.png`. The file is
-/// written only if the whole recipe succeeds. The scene does not change.
+/// from the direction of their mean normal. A face is left out if its normal points away from the viewer, or if it is
+/// seen nearly edge-on. The report counts these faces. The extension of the file determines the format: `.svg` or
+/// `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
 ///
 /// The name of an element is a letter followed by the id of the element: `v` for vertices, `h` for half-edges, `f` for
 /// faces. The half-edges with the ids `2e` and `2e + 1` belong to the edge with the id `e`.

@@ -266,7 +266,7 @@ impl Picture {
 
     /// Prepares a scene with its highlights and quantities. Also returns notes about parts of the scene that are not
     /// drawn. `placed` is the scene in which every instance is a separate object: an object that several nodes show
-    /// becomes several objects. Selections of elements are evaluated in the own space of each object.
+    /// becomes several objects. Selections of elements are evaluated in the local coordinates of each object.
     fn subject<'s>(
         &self,
         scene: &Scene,

@@ -22,8 +22,8 @@ use op::prelude::*;
 ///
 /// The cube has 8 vertices and 6 squares. In the order of their ids, the squares are on the sides -z, +z, -y, +x, +y
 /// and -x. In the same order, the vertex ids of the squares are (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5),
-/// (3, 2, 6, 7) and (2, 0, 4, 6). The id of a vertex is the sum of the numbers of its sides, where +x has the number 1,
-/// +y has 2, +z has 4, and all other sides have 0.
+/// (3, 2, 6, 7) and (2, 0, 4, 6). The id of a vertex is a sum: 1 if the vertex is on the side +x, plus 2 if it is on
+/// the side +y, plus 4 if it is on the side +z.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cube {

@@ -18,7 +18,7 @@ use op::prelude::*;
 /// connected faces have opposite orientations, the faces with the less frequent orientation are reversed. If the
 /// orientations of the connected faces cannot be made to agree, as in a Moebius strip, none of these faces is reversed.
 /// Two kinds of edges are split: edges with more than two faces, and edges whose two faces still have opposite
-/// orientations. At a split edge, faces with consistent orientations stay connected in pairs. Each pair, and each face
+/// orientations. At a split edge, pairs of faces with consistent orientations stay connected. Each pair, and each face
 /// that is left over, gets its own copy of the edge. A vertex is split if its faces form several fans (groups of faces
 /// that are connected by edges at the vertex). One fan keeps the vertex, and each other fan gets a copy of the vertex.
 /// The copies of vertices get the highest ids. The report and the command `check` list the reversed and split elements.

@@ -18,12 +18,12 @@ use op::prelude::*;
 /// the plane, and is not moved. A vertex is near if its distance from the plane is at most 1e-9 times the longest side
 /// of the bounding box. A distance of at most 1e-14 times the largest absolute coordinate also counts as near. Every
 /// edge has two half-edges. When an edge is cut, the part at the start of the half-edge with the lower id keeps the id
-/// of the edge. When a face is cut, the part with the first corner keeps the id of the face. New elements get the
-/// highest ids. Where an edge crosses the plane, attributes are interpolated. At a seam (an edge whose corner values,
-/// such as UVs, differ between its two sides), the corner values of each side are interpolated separately.
+/// of the edge. When a face is cut, the part that contains the first corner keeps the id of the face. New elements get
+/// the highest ids. Where an edge crosses the plane, attributes are interpolated. At a seam (an edge whose corner
+/// values, such as UVs, differ between its two sides), the corner values of each side are interpolated separately.
 ///
 /// With `keep: Front`, the part of the mesh behind the plane is removed. With `keep: Back`, the part in front of the
-/// plane is removed. A face can lie in the plane. If its normal points to the front, the face belongs to the back,
+/// plane is removed. If a face lies in the plane and its normal points to the front, the face belongs to the back,
 /// because it closes the solid behind the plane. Vertices that are left without a face are removed. If the remaining
 /// faces around a vertex form several fans (groups of faces connected across edges), each fan gets a separate copy of
 /// the vertex. No faces are added to close the cut. To close the cut, use `FillHoles` in a later step.
@@ -33,8 +33,8 @@ pub struct Bisect {
     /// A point on the plane.
     #[serde(default)]
     pub point: Vector,
-    /// The normal of the plane. It points to the front side. The length of the normal does not matter but must not
-    /// be 0.
+    /// The normal of the plane. The normal points to the front side. The length of the normal does not matter but must
+    /// not be 0.
     pub normal: Direction,
     /// The part of the mesh to keep: one side of the plane, or both sides.
     #[serde(default)]
@@ -45,11 +45,11 @@ pub struct Bisect {
     pub tag: Option<TagName>,
 }
 
-/// Which side of the plane to keep, or both.
+/// The part of a mesh to keep: one side of a plane, or both sides.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Keep {
-    /// Both sides. They stay connected at the cut.
+    /// Both sides. The two sides stay connected at the cut.
     #[default]
     Both,
     /// The side in front of the plane: the normal of the plane points to this side.

@@ -57,7 +57,7 @@ impl MeshOperation for Symmetrize {
     const WORDS: &'static [&'static str] = &["mirror", "reflect", "plane"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The largest counts are twice the largest counts in the plan of `Bisect`, because both halves are kept.
+        // The largest possible counts are twice those in the plan of `Bisect`, because the kept half is doubled.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();

@@ -41,8 +41,8 @@ use crate::step::{Step, Until};
 /// E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. The Euler
 /// characteristic V - E + F does not change. The shrunk face inside old face f has the id f, and the new face at old
 /// edge e has the id F + e. The new faces at old vertices have the highest ids. Isolated vertices are kept. The ids of
-/// isolated vertices follow the ids of all other vertices. Isolated vertices do not become faces, and neither do
-/// vertices inside the mesh that have only two edges.
+/// isolated vertices follow the ids of all other vertices. Two kinds of vertices do not become faces: isolated
+/// vertices, and vertices inside the mesh that have only two edges.
 ///
 /// Vertex attributes are smoothed with the same weights as the positions. Corner values are smoothed within each old
 /// face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, the mixed

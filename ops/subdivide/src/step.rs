@@ -254,7 +254,7 @@ fn to_op_error(error: SubdivisionError) -> OpError {
     }
 }
 
-/// The smallest and the largest possible count of elements, with the operations that [`Size`] needs.
+/// The smallest and the largest possible number of elements, with the arithmetic that [`Size`] needs.
 #[derive(Clone, Copy)]
 struct Planned(Range);
 
@@ -332,7 +332,7 @@ fn loss_notes(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
     notes
 }
 
-/// Returns the length of the longest edge of a dense mesh.
+/// Returns the length of the longest edge. The mesh must be dense, that is, have no gaps left by removed elements.
 fn longest_edge(mesh: &Mesh) -> f64 {
     let squared = |e: usize| {
         let [a, b] = mesh.edge_vertices(EdgeId::new(e));

@@ -63,9 +63,9 @@ pub struct Remesh {
     /// omitted, no additional edges.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
-    /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. To keep this limit,
-    /// some edges can become shorter than the target length. The distance is measured at the end of the step, in both
-    /// directions and for all points of both surfaces. If omitted, there is no limit.
+    /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. To stay below this
+    /// limit, the step can make some edges shorter than the target length. The distance is measured at the end of the
+    /// step, in both directions and for all points of both surfaces. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.

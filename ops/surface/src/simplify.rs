@@ -55,9 +55,9 @@ pub struct Simplify {
     #[serde(default)]
     pub ratio: Option<Fraction>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. The limit is
-    /// guaranteed: the step sums upper bounds of the movements of all collapses. The sum overestimates the true
-    /// distance. If the limit ends the step, the true distance is usually between a third of the limit and the limit.
-    /// If omitted, there is no limit.
+    /// guaranteed: for each collapse, the step computes an upper bound of how far the surface moves, and adds up these
+    /// bounds. The sum overestimates the true distance. If the limit ends the step, the true distance is usually
+    /// between a third of the limit and the limit. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
     /// Edges to keep as lines, in addition to the lines that are always kept. For example, `Sharp(above: 30)`. If
@@ -380,8 +380,8 @@ mod tests {
 
     #[test]
     fn new_overlaps_in_the_texture_are_counted() {
-        // The texture of half a ring closely surrounds the texture of a smaller half ring. If the larger half ring
-        // keeps only few vertices, its inner border cuts through the smaller half ring in the texture.
+        // In the texture, half a ring closely surrounds a smaller half ring. If the larger half ring keeps only few
+        // vertices, its inner border cuts through the smaller half ring in the texture.
         let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 3]>::new());
         for (inner, outer, n) in [(0.5, 1.0, 32), (1.005, 2.0, 27)] {
             let first = u32::try_from(positions.len()).unwrap();

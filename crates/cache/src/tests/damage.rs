@@ -53,12 +53,13 @@ fn damage_to_any_file_is_noticed() {
         },
         |path, _| fs::write(path, "").unwrap(),
         |path, _| fs::remove_file(path).unwrap(),
-        // Replaces the content of the file by the content of another file, which is intact but belongs to a different
+        // Writes the intact content of another file of the cache to this file, so that the content does not match the
         // name.
         |path, others| fs::write(path, &others[0]).unwrap(),
         |path, others| fs::write(path, others.last().unwrap()).unwrap(),
     ];
-    // The recipe with an edited last step needs the scene before this step. The files of this scene can be damaged.
+    // If the last step of the recipe is edited, the run needs the scene before this step. The files of this scene can
+    // be damaged.
     let edited = text.replace("Lift(by: 2)", "Lift(by: 3)");
     let plain = [&text, &edited].map(|text| place.run_with(text, None, "plain"));
     for damage in damages {

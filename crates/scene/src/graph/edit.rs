@@ -35,8 +35,8 @@ impl Graph {
         self.retain_channels(|c| c.property != AnimatedProperty::Weights || shows[c.node]);
     }
 
-    /// Renames an object. A node that references the object is renamed to `to` if its name is `from`. The label of the
-    /// mesh is renamed to `to` if its name is `from`, or if no node was renamed.
+    /// Renames an object. Each node that references the object and has the name `from` gets the name `to`. The label of
+    /// the mesh gets the name `to` if it had the name `from`, or if no node was renamed.
     pub fn rename_object(&mut self, from: &str, to: &str) {
         let mut is_named = false;
         for node in &mut self.nodes {

@@ -74,8 +74,8 @@ pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
     cut
 }
 
-/// Returns, for each edge, the edge from which it copies its attribute values. Old edges keep their values. For
-/// diagonals, the source is `NONE`, so diagonals get zero values.
+/// Returns, for each edge of the cut mesh, the source: the old edge whose attribute values this edge gets. The source
+/// of an old edge is the edge itself. The source of a diagonal is `NONE`, so diagonals get zero values.
 fn edge_sources(n_old: usize, n_diagonals: usize) -> Vec<EdgeId> {
     let mut sources: Vec<EdgeId> = (0..n_old).map(EdgeId::new).collect();
     sources.resize(n_old + n_diagonals, EdgeId::NONE);

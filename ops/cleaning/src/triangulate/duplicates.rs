@@ -16,8 +16,8 @@ use rayon::prelude::*;
 /// A diagonal: its two vertices, sorted by their ids, and the face that it cuts.
 type Diagonal = ([VertexId; 2], FaceId);
 
-/// Replaces each duplicate diagonal of a quadrilateral with the second diagonal, unless the second diagonal is worse or
-/// also a duplicate. Returns the number of duplicates that remain.
+/// Replaces each duplicate diagonal of a quadrilateral with the other diagonal of the quadrilateral, unless the other
+/// diagonal is worse or also a duplicate. Returns the number of duplicates that remain.
 pub(crate) fn avoid(mesh: &Mesh, cuts: &mut [Cut]) -> usize {
     let diagonals = all(mesh, cuts);
     let duplicates = duplicates(mesh, &diagonals);

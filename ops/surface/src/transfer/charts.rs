@@ -16,13 +16,13 @@ use geometry::surface_index::{SurfaceIndex, nearest_on_triangle, triangle_distan
 use mesh::{DVec3, Domain, FaceId, HalfEdgeId, Mesh, Values};
 use op::{Cancelled, Progress};
 
-/// Corners are moved toward the center of their face by this fraction of their distance from the center. The nearest
-/// face of the source to a corner at a seam is then on the same side of the seam as the face of the corner.
+/// Corners are moved toward the center of their face by this fraction of their distance from the center. At a seam, the
+/// source face that is nearest to the moved corner is then on the same side of the seam as the face of the corner.
 const INSET: f64 = 1e-6;
 
-/// The distance between two polygons is computed if they have at most this number of pairs of triangles. With more
-/// pairs, the computation would take too long, so the distance from the center of one polygon to the other polygon is
-/// used instead.
+/// The exact distance between two polygons is computed if they have at most this number of pairs of triangles. With
+/// more pairs, the computation would take too long, so the distance from the center of one polygon to the other polygon
+/// is used instead.
 const MAX_PAIRS: usize = 4096;
 
 /// The charts of an attribute of corners. A chart is a set of connected faces. Two faces are connected if the values of
@@ -119,7 +119,7 @@ impl<'a> Charts<'a> {
 
     /// Returns the candidate that is nearest to the face `f` if its distance from `f` is less than half of the distance
     /// of the first candidate. Otherwise, returns the first candidate. The distance between a chart and a face is the
-    /// largest distance of a corner or the center of the face from the chart.
+    /// largest of the distances from the chart to the corners and to the center of the face.
     pub(super) fn nearest(
         &mut self,
         candidates: &[usize],
@@ -147,8 +147,8 @@ impl<'a> Charts<'a> {
     }
 
     /// Returns the faces of `chart` that no seam separates from the center of the target face `f`. Returns `None` if
-    /// the chart has no seam near `f`. `farthest` is the largest distance of a corner or the center of `f` from the
-    /// source.
+    /// the chart has no seam near `f`. `farthest` is the largest of the distances from the source to the corners and to
+    /// the center of `f`.
     ///
     /// First finds the part of the source under the face. This part consists of the nearest faces that connect the
     /// center of the face with all of its corners. Then returns the faces of this part that are connected with the

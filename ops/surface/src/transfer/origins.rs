@@ -1,4 +1,4 @@
-//! Finds the elements of the source whose values each element of the target takes.
+//! Finds, for each element of the target, the elements of the source from which it takes its values.
 
 use geometry::surface_index::{Nearest, SurfaceIndex, Triangle};
 use mesh::{Domain, HalfEdgeId, Mesh, Values};
@@ -6,8 +6,8 @@ use op::prelude::*;
 
 use super::charts::Charts;
 
-/// The elements of the source whose values an element of the target takes, each with its weight. `None` if the source
-/// is too far away.
+/// The elements of the source from which one element of the target takes its values, each with a weight. `None` if the
+/// source is too far away.
 pub(super) type Origin = Option<[(usize, f64); 3]>;
 
 /// The mesh from which attributes are copied, and its spatial index.
@@ -34,9 +34,9 @@ impl Source<'_> {
         Some([(face, 1.0), (face, 0.0), (face, 0.0)])
     }
 
-    /// Returns the origins of the corners of the target. The index of an origin is the index of the half-edge of its
-    /// corner. `vertices` and `faces` contain the points of the source that are nearest to the vertices and to the face
-    /// centers of the target.
+    /// Returns the origins of the corners of the target. The origin of a corner has the same index as the half-edge of
+    /// this corner. `vertices` and `faces` contain the points of the source that are nearest to the vertices and to the
+    /// face centers of the target.
     pub(super) fn of_corners(
         &self,
         target: &Mesh,

@@ -222,8 +222,8 @@ fn missing_and_unsuitable_attributes_are_refused() {
     refused(r#"(from: "scam", attributes: ["uv"])"#, target());
 }
 
-/// Returns a tube of `n` faces around and 3 faces high. The texture coordinates (angle / 2π, z) have one seam. All
-/// vertices are rotated by `turn` times the width of a face.
+/// Returns a tube with `n` faces around its axis and 3 faces along its axis. The texture coordinates (angle / 2π, z)
+/// have one seam. All vertices are rotated by `turn` times the width of a face.
 fn tube(n: u32, turn: f64) -> Mesh {
     let mut points = Vec::new();
     let mut faces = Vec::new();

@@ -8,8 +8,8 @@ use crate::vertex_normals::Weight;
 /// coordinate of `magnitude`. A sum below this limit is only rounding error.
 const CANCELLED: f64 = 1e-14;
 
-/// Returns the unit normal of every vertex of a dense mesh, and the number of vertices without a normal. Vertices
-/// without a normal get the zero vector.
+/// Returns the unit normal of every vertex, and the number of vertices without a normal. The mesh must be dense, that
+/// is, have no gaps left by removed elements. Vertices without a normal get the zero vector.
 ///
 /// The faces are added in their order around the vertex, so the result is the same for any number of threads. Positions
 /// are scaled by a power of two, so the result does not depend on the size of the mesh.
@@ -68,8 +68,8 @@ fn summed(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3]) -> DVec3 {
 fn summed_by_angle(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3], scale: f64) -> DVec3 {
     let p = scale * mesh.position(v);
     let side = |w| scale * mesh.position(w) - p;
-    // The half-edges are in clockwise order, so the corner of the face of a half-edge lies between this half-edge and
-    // the previous one.
+    // The half-edges that start at the vertex are in clockwise order. The face of a half-edge therefore lies between
+    // this half-edge and the previous one.
     let last = mesh.vertex_neighbors(v).last().map_or(DVec3::ZERO, side);
     let (sum, _) = mesh
         .vertex_half_edges(v)

@@ -9,8 +9,8 @@
 //! key                 the secret key of the cache: random bytes that enter the digests of records
 //! ```
 //!
-//! **Keys.** The key of a step is the digest of the data that determine its result and that are known before the step
-//! runs. The key depends on the program, the operation with its version and parameters, and the objects in the field
+//! **Keys.** The key of a step is a digest of all data that are known before the step runs and that can change its
+//! result. The key depends on the program, the operation with its version and parameters, and the objects in the field
 //! `on` of the step. The key also depends on the label of the step (which seeds random choices), the memory budget, and
 //! the state of the scene before the step. If the recipe expects that the step is refused, the key depends on the
 //! expected reason, too. The state of the scene after a step is a digest of the key of the step and of the files that

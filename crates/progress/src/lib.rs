@@ -38,8 +38,8 @@ pub trait Progress: Sync {
     }
 }
 
-/// Counts the finished parts of a computation, which can run on several threads, and reports their number to a
-/// listener.
+/// Counts the finished parts of a computation, and reports this count to a listener. The computation can run on several
+/// threads.
 pub struct Meter<'a> {
     listener: &'a dyn Progress,
     task: &'static str,

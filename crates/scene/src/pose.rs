@@ -91,9 +91,9 @@ impl Pose {
         Some(parallel::collect(n, blend))
     }
 
-    /// Returns the attributes that the weights of the morph targets change, with their values before joints move the
-    /// mesh. These are normals and tangents of the mesh and of its morph targets, and texture coordinates and colors of
-    /// the mesh.
+    /// Returns the attributes that morph targets change in this pose. The returned values include the effect of the
+    /// morph targets, but not of the joints. These are normals and tangents of the mesh and of its morph targets, and
+    /// texture coordinates and colors of the mesh.
     pub fn morphed_attributes(
         &self,
         attributes: &Attributes,
@@ -151,15 +151,17 @@ impl Pose {
         changed.collect()
     }
 
-    /// Returns the normals and tangents of the mesh and of its morph targets in this pose, before joints move them.
-    /// These columns replace the columns of the same names in `attributes`. Columns that do not change are left out.
-    /// The new columns of normals have values for corners if at least one of the old columns of normals has values for
-    /// corners. Otherwise, they have values for vertices. `vertex_of` returns the vertex of a corner.
+    /// Returns the normals and tangents of the mesh and of its morph targets in this pose. The returned values include
+    /// the effect of the morph targets, but not of the joints. These columns replace the columns of the same names in
+    /// `attributes`. Columns that do not change are left out. The new columns of normals have values for corners if at
+    /// least one of the old columns of normals has values for corners. Otherwise, they have values for vertices.
+    /// `vertex_of` returns the vertex of a corner.
     ///
-    /// For each morph target, the difference between its normal and the old normal is multiplied by the weight of the
-    /// target. The new normal is the normalized sum of the old normal and these weighted differences, as in glTF 2.0,
-    /// section 3.7.2.2. The normals of the morph targets change by the same vector, so these differences stay the same.
-    /// If the sum is zero, the old normal stays. Tangents are computed like normals, and their signs stay.
+    /// For each morph target, the difference between the normal of the target and the old normal is multiplied by the
+    /// weight of the target. The new normal is the normalized sum of the old normal and these weighted differences, as
+    /// in glTF 2.0, section 3.7.2.2. The normals of the morph targets change by the same vector, so these differences
+    /// stay the same. If the sum is zero, the old normal stays. Tangents are computed like normals, and their signs
+    /// stay.
     fn morphed_directions(
         &self,
         attributes: &Attributes,

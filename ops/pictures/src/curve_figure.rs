@@ -52,8 +52,8 @@ pub struct CurveFigure {
     /// panels.
     #[serde(default = "width")]
     pub width: Count<80, 8192>,
-    /// The number of panels in each row. If omitted, each row has one panel for each value of `t` (with `by_level`, for
-    /// each level of the curve), but at most 4 panels.
+    /// The number of panels in each row. If omitted, each row has one panel for each value of `t`, but at most 4
+    /// panels. With `by_level`, each row then has one panel for each level of the curve, but at most 4 panels.
     #[serde(default)]
     pub columns: Option<Count<1, 256>>,
     /// In a `.png` file, each SVG pixel becomes a square of `scale` by `scale` pixels. Has no effect on `.svg` files.

@@ -354,8 +354,8 @@ impl Picture {
         }
     }
 
-    /// Encodes images as a file in the format of the path. `stamp` is a line about the origin of the file (its
-    /// provenance), which is stored in the file.
+    /// Encodes images as a file in the format of the path. `stamp` is the provenance: a line of text about the origin
+    /// of the file. This line is stored in the file.
     ///
     /// # Errors
     ///

@@ -31,8 +31,8 @@ pub struct Polygons {
     pub name: Option<String>,
     /// The points `(x, y, z)`, in scene units. Points that no face uses become isolated vertices.
     pub points: Vec<Vector>,
-    /// The faces. Each face is a list of the indices of its points, counted from 0, in counter-clockwise order seen
-    /// from outside. A face has at least three points, without duplicates.
+    /// The faces. Each face lists the indices of its points, in counter-clockwise order as seen from outside. The first
+    /// of the `points` has the index 0. A face has at least three points, without duplicates.
     pub faces: Vec<Vec<u32>>,
 }
 

@@ -41,8 +41,8 @@ use crate::step::{Step, Until};
 /// Each level creates one quad at each corner of each old face. A level turns V vertices, E edges and F faces with C
 /// corners in total into V + E + F vertices, 2 E + C edges and C quads. The Euler characteristic V - E + F does not
 /// change. Old vertices keep their ids. The vertex on edge e has the id V + e, and the vertex at the center of face f
-/// has the id V + E + f. Edge e becomes edges 2e and 2e + 1. The quads are numbered in the order of the old faces and,
-/// in each face, in the order of its corners.
+/// has the id V + E + f. Edge e becomes edges 2e and 2e + 1. The quads are numbered face by face, in the order of the
+/// old faces. The quads of an old face are in the order of the corners of this face.
 ///
 /// Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner values
 /// are smoothed as the parameter `face_varying` specifies, and seams are kept. When an edge or a face is split, its

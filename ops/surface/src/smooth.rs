@@ -82,8 +82,8 @@ pub enum SmoothBy {
         #[serde(default = "pass_band")]
         pass_band: Fraction,
     },
-    /// Moves the surface by mean curvature flow. Each pass is one stable time step of the given length. Details smaller
-    /// than the square root of the time disappear, regardless of how dense the vertices are.
+    /// Moves the surface by mean curvature flow. Each pass is one time step of length `time`, and is stable for any
+    /// length. Details smaller than the square root of the time disappear, regardless of how dense the vertices are.
     Implicit {
         /// The time, in squares of the scene unit.
         time: PositiveLength,

@@ -32,8 +32,8 @@ use origins::{Origin, Source};
 /// same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This prevents
 /// triangles from stretching across a seam of the texture. Usually the chart that is nearest to the center of the face
 /// is used. Where parts of the source object intersect, the chart that is nearest to the center can be far from the
-/// corners of the face. If the chart that is nearest to a corner is much nearer to the whole face, this chart is used
-/// instead.
+/// corners of the face. If another chart is nearest to a corner, and is much nearer to the face as a whole, this other
+/// chart is used.
 ///
 /// Elements that are farther from the source object than `within` keep their values, or get zeros if the attribute is
 /// new. All corners of a face are treated alike. If one of the corners or the center of the face is too far away, all

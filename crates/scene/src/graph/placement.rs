@@ -37,8 +37,8 @@ impl Placement {
     /// matrix.
     const TOLERANCE: f64 = 1e-12;
 
-    /// Returns the map from the space of the node to the space of its parent. The map is not finite if a number is not
-    /// finite or the rotation is zero.
+    /// Returns the map from the space of the node to the space of its parent. If a number of the placement is infinite
+    /// or NaN, or the rotation is zero, the numbers of the map are not all finite.
     pub fn to_affine(self) -> DAffine3 {
         match self {
             Self::Matrix(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),

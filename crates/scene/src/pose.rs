@@ -91,9 +91,9 @@ impl Pose {
         Some(parallel::collect(n, blend))
     }
 
-    /// Returns the attributes that morph targets change in this pose. The returned values include the effect of the
-    /// morph targets, but not of the joints. These are normals and tangents of the mesh and of its morph targets, and
-    /// texture coordinates and colors of the mesh.
+    /// Returns the attributes that morph targets change in this pose: normals and tangents of the mesh and of its morph
+    /// targets, and texture coordinates and colors of the mesh. The returned values include the effect of the morph
+    /// targets, but not of the joints.
     pub fn morphed_attributes(
         &self,
         attributes: &Attributes,

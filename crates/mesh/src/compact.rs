@@ -72,7 +72,7 @@ fn each<I: Id, T: Send>(kept: &[I], value: impl Fn(I) -> T + Sync) -> Vec<T> {
     parallel::collect(kept.len(), |i| value(kept[i]))
 }
 
-/// Returns, for each old index below `n`, its position in `kept`; `NONE` if `kept` does not contain the index.
+/// Returns, for each index below `n`, the place of this index in `kept`; `NONE` if `kept` does not contain it.
 fn inverse<I: Id>(kept: &[I], n: usize) -> Vec<I> {
     let mut map = vec![I::NONE; n];
     for (new, old) in kept.iter().enumerate() {

@@ -13,7 +13,7 @@ pub trait Id:
     const NONE: Self;
 
     /// The domain of the attribute columns that are indexed by ids of this kind. For half-edges, this is
-    /// [`Domain::Corner`]: a half-edge stands for the corner at its origin, in its face.
+    /// [`Domain::Corner`]: a half-edge stands for the corner of its face at the vertex that the half-edge leaves.
     const DOMAIN: Domain;
 
     /// Creates the id with this index.
@@ -159,7 +159,8 @@ impl EdgeId {
 pub enum Domain {
     /// One value for each vertex.
     Vertex,
-    /// One value for each half-edge. The half-edge represents the corner at its origin, in its face.
+    /// One value for each half-edge. The half-edge represents the corner of its face at the vertex that the half-edge
+    /// leaves.
     Corner,
     /// One value for each edge.
     Edge,

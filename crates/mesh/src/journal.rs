@@ -9,14 +9,14 @@
 //! `rollback` undoes the edits since the inner `begin`; an inner `commit` makes these edits part of the outer
 //! level.
 //!
-//! The journal is a stack of entries. Elements that were added after the innermost level was opened need no
-//! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
-//! overwrites; this record is the change that redoes the edits.
+//! The journal is a stack of entries. An element that was added after the innermost level was opened needs no entry: an
+//! undo truncates the arrays to their old lengths. An undo in turn records the values that it overwrites; this record
+//! is the change that redoes the edits.
 //!
-//! Before an edit starts, the total size of the entries is checked. Copies of whole arrays do not count. If the journal
-//! has only one level and its entries take at least as much memory as the mesh plus 64 KiB, one copy of the old mesh
-//! replaces the entries. If a level of the journal has a copy of the mesh, no further entries are recorded for this
-//! level.
+//! Before an edit starts, the total size of the entries is checked. Copies of whole arrays do not count. The limit for
+//! the entries is the memory of the mesh plus 64 KiB. If the journal has only one level and its entries reach the
+//! limit, one copy of the old mesh replaces the entries. If a level of the journal has a copy of the mesh, no further
+//! entries are recorded for this level.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -46,8 +46,8 @@ impl Change {
     }
 }
 
-/// If the entries of a journal take at least as much memory as the mesh plus this number of bytes, a copy of the mesh
-/// replaces the entries.
+/// A copy of the mesh replaces the entries of a journal when they take more memory than the mesh: at least this number
+/// of bytes more.
 const JOURNAL_ALLOWANCE: usize = 1 << 16;
 
 /// The open journal of a mesh.
@@ -145,7 +145,7 @@ impl Journal {
         }
     }
 
-    /// Records a copy of the whole mesh, which must be in the state before a change.
+    /// Records a copy of the whole mesh. The copy must have the state before the change.
     fn record_whole(&mut self, mesh: Mesh) {
         self.record(|| Entry::Whole(Box::new(mesh)));
         if let Some(level) = self.levels.last_mut() {

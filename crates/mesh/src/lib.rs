@@ -21,8 +21,8 @@
 //!
 //! [`Mesh::defects`] lists every broken invariant, with the element that breaks it:
 //!
-//! 1. If several arrays have one entry for each element of the same kind (for example, for each half-edge), these
-//!    arrays have the same length. The number of half-edges is even.
+//! 1. Arrays with one entry for each element of the same kind (for example, for each half-edge) have the same length.
+//!    The number of half-edges is even.
 //! 2. Every stored id belongs to an element that was not removed.
 //! 3. `next` is a permutation of the half-edges. The half-edge `next(h)` lies on the same face as `h` (or around the
 //!    same hole), and starts where `h` ends: `origin(next(h)) == target(h)`.
@@ -95,9 +95,9 @@
 #[cfg(test)]
 extern crate self as mesh;
 
-/// The unit tests of this crate cannot use `geometry` as a dependency. Its functions take the `Mesh` of the library
-/// build of this crate, and the test build defines a different `Mesh` type. Therefore, the unit tests compile the files
-/// of `geometry` that they need.
+/// The unit tests of this crate cannot use `geometry` as a dependency. The functions of `geometry` take the type `Mesh`
+/// of the library build of this crate; the test build defines a different type `Mesh`. Therefore, the unit tests
+/// compile the files of `geometry` that they need.
 #[cfg(test)]
 #[path = "../../geometry/src"]
 pub mod geometry {

@@ -27,7 +27,8 @@ impl Marks {
         }
     }
 
-    /// Removes the mark of `i`. Also drops zero words at the end of the list, so that equal sets have equal lists.
+    /// Removes the mark of `i`. Also drops the last words of the list that are zero, so that equal sets have equal
+    /// lists.
     pub(crate) fn remove(&mut self, i: usize) {
         if self.has(i) {
             self.words[i / 64] &= !(1 << (i % 64));

@@ -26,8 +26,8 @@ fn length(v: DVec3) -> f64 {
 
 /// Scales a vector by a power of two, so that squares of the scaled components cannot overflow and the scaled length
 /// does not underflow. Returns the scaled vector and an exponent k: the original vector is the scaled vector times 2ᵏ.
-/// If the largest absolute value of a component is zero, not finite, or between 1e-70 and 1e70, the vector is returned
-/// unchanged, with the exponent 0.
+/// Let m be the largest absolute value of a component. If m is zero or not finite, or is between 1e-70 and 1e70, the
+/// vector is returned unchanged, with the exponent 0.
 fn ordinary(v: DVec3) -> (DVec3, i32) {
     let largest = v.abs().max_element();
     if (1e-70..1e70).contains(&largest) || largest == 0.0 || !largest.is_finite() {
@@ -115,8 +115,8 @@ impl Mesh {
         length(self.position(self.origin(h)) - self.position(self.target(h)))
     }
 
-    /// Returns the angle of a face at the corner of `h`, in radians. `h` is the half-edge of the face that
-    /// leaves the corner.
+    /// Returns the angle of a face at the corner of `h`, in radians. The half-edge `h` leaves the vertex of this corner
+    /// and lies on the face.
     pub fn corner_angle(&self, h: HalfEdgeId) -> f64 {
         let p = self.position(self.origin(h));
         let next = self.position(self.target(h));
@@ -131,8 +131,8 @@ impl Mesh {
     }
 
     /// Returns a function that computes the same angle as [`dihedral_angle`](Self::dihedral_angle). The normal of each
-    /// face is computed only once. If the angles of many edges are needed, the returned function saves time, because
-    /// the time to compute a normal is proportional to the number of corners of the face.
+    /// face is computed only once. Use this function if the angles of many edges are needed: the time to compute a
+    /// normal is proportional to the number of corners of the face.
     pub fn dihedral_angles(&self) -> impl Fn(EdgeId) -> Option<f64> {
         let normals = self.face_normals();
         move |e| self.angle_of_faces(e, |f| normals[f.index()])

@@ -51,8 +51,8 @@ pub fn map<R: Send>(n: usize, make: impl Fn(usize) -> R + Sync) -> Vec<R> {
     results(n, &make)
 }
 
-// The functions `results` and `fill_blocks` take `dyn` closures, so they are compiled once for each type of results or
-// elements, and not once for each closure.
+// The functions `results` and `fill_blocks` take `dyn` closures. Therefore, they are compiled once for each type of
+// results or elements, and not once for each closure.
 
 fn results<R: Send>(n: usize, make: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
     let mut results: Vec<Mutex<Option<R>>> = Vec::with_capacity(n);
@@ -105,8 +105,8 @@ pub fn collect<T: Send>(n: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
         unsafe_code,
         reason = "some types have no zero value, so safe code would collect blocks and then copy all values once more"
     )]
-    // SAFETY: the capacity is at least n, and `fill` has passed each of the first n slots to the closure, which has
-    // written a value to the slot. If the closure `value` panics, `set_len` is not called.
+    // SAFETY: the capacity is at least n. The call of `fill` has written a value to each of the first n slots. If the
+    // closure `value` panics, `set_len` is not called.
     unsafe {
         all.set_len(n);
     }

@@ -51,8 +51,8 @@ impl Mesh {
         v
     }
 
-    /// Adds an edge between two vertices, with zero attribute values. The caller must set `face` and `next` of both
-    /// half-edges.
+    /// Adds an edge between two vertices. All attribute values of the edge are zero. The caller must set `face` and
+    /// `next` of both half-edges.
     pub(crate) fn push_edge(&mut self, origin: VertexId, target: VertexId) -> EdgeId {
         let e = EdgeId::new(self.connectivity.next.len() / 2);
         self.connectivity.next.extend([HalfEdgeId::NONE; 2]);
@@ -63,7 +63,7 @@ impl Mesh {
         e
     }
 
-    /// Adds a face with `h` as its half-edge and with zero attribute values.
+    /// Adds a face that stores `h` as its half-edge. All attribute values of the face are zero.
     pub(crate) fn push_face(&mut self, h: HalfEdgeId) -> FaceId {
         let f = FaceId::new(self.connectivity.face_half_edge.len());
         self.connectivity.face_half_edge.push(h);
@@ -129,8 +129,8 @@ impl Mesh {
     /// of this point is 0 at the first end of the edge and 1 at the second end. `sides` has one entry for each side of
     /// the edge. For a side with a face, the entry contains the two corners of this face at the ends of the edge. `end`
     /// (0 or 1) is the end of the edge at which corner `to` lies. If one of the sides has a corner at this end with the
-    /// same value as `to`, then `to` gets the value interpolated between the two corners of that side. `to` must not be
-    /// one of the corners in `sides`.
+    /// same value as `to`, `to` follows this side: it gets the value interpolated between the two corners of the side.
+    /// `to` must not be one of the corners in `sides`.
     pub(crate) fn follow_values(
         &mut self,
         sides: [Option<[HalfEdgeId; 2]>; 2],

@@ -1,8 +1,8 @@
 //! Allocates large arrays in large pages of memory.
 //!
 //! The operating system maps each page of memory when the page is first read or written. If an array is written only
-//! once, mapping its memory in pages of 4 KiB takes as long as writing it. With pages of 2 MiB, mapping the memory
-//! takes a third of the time.
+//! once, mapping its memory in pages of 4 KiB takes as long as writing the values. With pages of 2 MiB, mapping the
+//! memory takes a third of the time.
 
 use bytemuck::Zeroable;
 

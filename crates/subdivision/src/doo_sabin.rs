@@ -3,8 +3,8 @@
 //!
 //! The old mesh has V vertices, E edges and F faces. Half-edge h runs from a to b and has face f; its twin t has face
 //! g. The corner at the origin of h becomes vertex h. If h has no face, two points on the edge replace the missing
-//! corners: vertex h near a, and vertex 2E + (rank of h among the half-edges without a face) near b. Two new vertices
-//! lie beside h: p(h) near a, and q(h) near b:
+//! corners: vertex h near a, and a second vertex near b. The second vertex has the index 2E + r, where r is the rank of
+//! h among the half-edges without a face. Two new vertices lie beside h: p(h) near a, and q(h) near b:
 //!
 //! ```text
 //!                  |         f         |             along(h)  = 2h, from p(h) to q(h), in face f

@@ -1,7 +1,7 @@
 //! The names of the vertex attributes that deform a mesh: weights of joints, and deltas of morph targets.
 //!
-//! For each vertex, the attribute `joint:j` has the weight of joint j of the skin, and `morph:t` has the vector by
-//! which morph target t moves the vertex. The rule of both attributes is
+//! For each vertex, the attribute `joint:j` has the weight of joint j of the skin. The attribute `morph:t` has the
+//! vector by which morph target t moves the vertex. The rule of both attributes is
 //! [`Rule::Interpolate`](crate::Rule::Interpolate). Therefore, an edit that averages positions averages the weights and
 //! deltas in the same way. Each joint has a separate attribute, because lists of joints at the vertices could not be
 //! interpolated.
@@ -24,8 +24,8 @@ const JOINT: &str = "joint:";
 const MORPH: &str = "morph:";
 const MORPH_NORMAL: &str = "morph_normal:";
 const MORPH_TANGENT: &str = "morph_tangent:";
-/// The names of attributes that store changes of texture coordinates or colors begin with this prefix. The name of the
-/// changed attribute, a colon and the number of the morph target follow.
+/// The names of attributes that store changes of texture coordinates or colors begin with this prefix. The prefix is
+/// followed by the name of the changed attribute, a colon and the number of the morph target.
 const MORPH_VALUE: &str = "morph_";
 
 /// Returns the name of the attribute that stores the weights of a joint. The attribute has one `f64` for each vertex.
@@ -49,8 +49,8 @@ pub fn morph_tangent_name(target: usize) -> String {
     format!("{MORPH_TANGENT}{target}")
 }
 
-/// Returns the name of the attribute with the changes that a morph target makes to the attribute `changed`, which has
-/// texture coordinates or colors.
+/// Returns the name of the attribute that stores how a morph target changes the attribute `changed` (texture
+/// coordinates or colors).
 pub fn morph_value_name(changed: &str, target: usize) -> String {
     format!("{MORPH_VALUE}{changed}:{target}")
 }
@@ -78,8 +78,9 @@ pub fn morph_tangent_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH_TANGENT)?)
 }
 
-/// For the name of an attribute that stores changes of texture coordinates or colors, returns the name of the changed
-/// attribute and the morph target. For example, `morph_uv1:2` gives `uv1` and 2. Returns `None` for any other name.
+/// If an attribute with this name stores changes of texture coordinates or colors, returns two values: the name of the
+/// changed attribute, and the number of the morph target. For example, `morph_uv1:2` gives `uv1` and 2. Returns `None`
+/// for any other name.
 pub fn morph_value_of(name: &str) -> Option<(&str, usize)> {
     let (changed, target) = name.strip_prefix(MORPH_VALUE)?.split_once(':')?;
     let has_changes = changed == COLOR.name || uv_set(changed).is_some();

@@ -116,7 +116,8 @@ impl Values {
     }
 
     /// Does the same as [`gather`](Self::gather), but takes a `dyn` closure: a generic function would be compiled again
-    /// for each closure. `sources(i, list)` fills `list` with the sources of consecutive new values, from new value i.
+    /// for each closure. `sources(i, list)` fills `list` with the sources of consecutive new values, beginning with new
+    /// value i.
     fn gather_blocks(&self, n: usize, sources: &(dyn Fn(usize, &mut [usize]) + Sync)) -> Self {
         const SOURCES: usize = 128;
         fn run<T: Value>(
@@ -234,7 +235,8 @@ impl Values {
         each!(self, v => v[a] == v[b])
     }
 
-    /// Appends the values of `other`. Returns false, and changes nothing, if their type is different.
+    /// Appends the values of `other`. Returns false, and changes nothing, if the values of `other` have a different
+    /// type.
     pub fn append(&mut self, other: &Self) -> bool {
         each!(self, v => Value::of(other).map(|more| v.extend_from_slice(more)).is_some())
     }

@@ -17,15 +17,16 @@
 //! repairs:
 //!
 //! - Two polygons that share an edge have a consistent orientation if their sides run along the edge in opposite
-//!   directions. Polygons that are connected through edges with exactly two sides form a part, and each part is treated
-//!   separately. If the polygons of a part can get a consistent orientation, they form two groups. The first group has
-//!   the same orientation as the first polygon of the part, and the second group the opposite orientation. The smaller
-//!   group is reversed. If both groups have the same size, the second group is reversed. If a part cannot get a
-//!   consistent orientation, none of its polygons is reversed. The first corner of a reversed polygon stays the first.
-//! - An edge between vertices a and b is not manifold if it has more than two sides. It is also not manifold if it has
-//!   two sides that run in the same direction even after polygons have been reversed. On a non-manifold edge, the k-th
-//!   side from a to b is paired with the k-th side from b to a. The sides are counted in the order of the corners.
-//!   Unpaired sides become boundary edges.
+//!   directions. A part consists of polygons that are connected through edges that exactly two polygons share; each
+//!   part is treated separately. If the polygons of a part can get a consistent orientation, they form two groups. The
+//!   first group has the same orientation as the first polygon of the part, and the second group the opposite
+//!   orientation. The smaller group is reversed. If both groups have the same size, the second group is reversed. If a
+//!   part cannot get a consistent orientation, none of its polygons is reversed. The first corner of a reversed polygon
+//!   stays the first.
+//! - An edge between vertices a and b is not manifold if more than two polygons share it. It is also not manifold if
+//!   two polygons share it, and their sides run along it in the same direction even after polygons have been reversed.
+//!   On a non-manifold edge, the k-th side from a to b is paired with the k-th side from b to a. The sides are counted
+//!   in the order of the corners. Unpaired sides become boundary edges.
 //! - If the faces around a vertex form several fans, the fan that contains the first corner at the vertex keeps the
 //!   vertex. Each other fan gets a copy of the vertex. The copies come after all other vertices.
 //! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.
@@ -124,9 +125,9 @@ pub struct BuildOutput {
     pub mesh: Mesh,
     /// The repairs that made the mesh a manifold.
     pub report: BuildReport,
-    /// For each corner of the input, the half-edge that leaves the vertex of the corner, on the face made from the
-    /// polygon of the corner. `NONE` if the polygon was dropped. On a reversed polygon, this half-edge runs along the
-    /// side that ends at the corner in the input; see [`edges_of_sides`](Self::edges_of_sides).
+    /// For each corner of the input, a half-edge of the face that was made from the corner's polygon: the half-edge
+    /// that leaves the corner's vertex. `NONE` if the polygon was dropped. On a reversed polygon, this half-edge runs
+    /// along the side that ends at the corner in the input; see [`edges_of_sides`](Self::edges_of_sides).
     pub half_edge_of_corner: Vec<HalfEdgeId>,
     /// For each polygon of the input, its face; `NONE` if the polygon was dropped.
     pub face_of_polygon: Vec<FaceId>,
@@ -313,8 +314,8 @@ fn check_manifold(paired: &PairedSides) -> Result<(), BuildError> {
     pinched.map_or(Ok(()), |v| Err(BuildError::NonManifoldVertex(v)))
 }
 
-/// Builds a mesh with some polygons reversed. The map from corners to half-edges in the result refers to the corners
-/// before the reversal.
+/// Builds a mesh with some polygons reversed. In the result, the map from corners to half-edges uses the corners in the
+/// order before the reversal.
 fn build_reoriented(
     positions: Vec<DVec3>,
     offsets: &[u32],

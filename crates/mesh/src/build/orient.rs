@@ -8,9 +8,9 @@
 //!    +-------+-------+           +-------+-------+
 //! ```
 //!
-//! Two polygons are neighbors if they share an edge that has exactly two sides. Polygons that are connected through
-//! such edges form a part. If the polygons of a part can get a consistent orientation, they form two groups. The first
-//! group has the same orientation as the first polygon of the part, and the second group the opposite orientation. The
+//! Two polygons are neighbors if they share an edge that no other polygon has. Polygons that are connected through such
+//! edges form a part. If the polygons of a part can get a consistent orientation, they form two groups. The first group
+//! has the same orientation as the first polygon of the part, and the second group the opposite orientation. The
 //! smaller group is reversed. If both groups have the same size, the second group is reversed.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -91,8 +91,8 @@ impl Orientation {
     }
 }
 
-/// Returns, for each side, the other side of its edge, or `NONE` if the edge does not have exactly two sides. The two
-/// sides can run in the same or in opposite directions.
+/// Returns, for each side, the other side of its edge, or `NONE` if the edge does not belong to exactly two polygons.
+/// The two sides can run in the same or in opposite directions.
 fn opposite_sides(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
     let opposite_sides: Vec<AtomicU32> = (0..polygons.corners.len())
         .into_par_iter()

@@ -1,5 +1,4 @@
-//! Pairs each side of a polygon with the side of another polygon that runs in the opposite direction along the same
-//! edge.
+//! Finds pairs of polygon sides: two sides form a pair if they run along the same edge in opposite directions.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -20,10 +19,10 @@ pub(super) struct PairedSides {
     /// The vertices whose faces form more than one fan, in ascending order. For a vertex with several fans, the entry
     /// of `outgoing` can belong to any of these fans.
     pub(super) pinched: Vec<u32>,
-    /// The edges with more than two sides, or with two sides that run in the same direction, ordered by their
-    /// vertices.
+    /// The edges of more than two polygons, and the edges along which two polygons run in the same direction, ordered
+    /// by the vertices of the edges.
     pub(super) non_manifold_edges: Vec<[VertexId; 2]>,
-    /// Whether any edge has exactly two sides, and both sides run in the same direction.
+    /// Whether any edge belongs to exactly two polygons, whose sides run along it in the same direction.
     pub(super) has_inconsistent_edge: bool,
 }
 

@@ -7,8 +7,8 @@ use crate::VertexId;
 /// The repairs that made polygons a manifold. All lists are empty if no repair was necessary.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BuildReport {
-    /// The edges that had more than two sides, or two sides that ran in the same direction. Each edge is a pair of
-    /// vertices, the lower one first.
+    /// The edges that more than two polygons shared, or along which two polygons ran in the same direction. Each edge
+    /// is a pair of vertices, the lower one first.
     pub split_edges: Vec<[VertexId; 2]>,
     /// The vertices whose faces formed several fans. Each entry is a pair of a vertex and one of its copies. Each fan
     /// except the first got a separate copy of the vertex.

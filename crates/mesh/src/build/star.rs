@@ -31,9 +31,9 @@ pub(super) struct Star {
     /// all fans are closed.
     start: usize,
     is_closed: bool,
-    /// Whether any edge at the vertex is known to be non-manifold. The flag can be false in spite of a non-manifold
-    /// edge if all sides along this edge end at the vertex. In this case, the flag is true in the star of the vertex at
-    /// the other end of the edge.
+    /// Whether any edge at the vertex is known to be non-manifold. The flag is false if all sides along the
+    /// non-manifold edges end at this vertex. In this case, the flag is true in the star of the vertex at the other end
+    /// of such an edge.
     pub(super) has_non_manifold_edge: bool,
 }
 
@@ -99,8 +99,8 @@ impl Star {
     }
 
     /// Finds, for each corner, the next corner clockwise around the vertex. For each neighbor w, the k-th side from the
-    /// vertex to w is paired with the k-th side from w to the vertex. The corner at the start of the first of these two
-    /// sides is followed by the corner at the end of the second.
+    /// vertex to w is paired with the k-th side from w to the vertex. Clockwise, the corner at the start of the first
+    /// side is followed by the corner at the end of the second side.
     fn match_by_comparing(&mut self) {
         let n = self.to.len();
         let mut free = if n == MAX_COMPARED {

@@ -171,8 +171,8 @@ impl Mesh {
     /// Cuts the half-edges of `cuts` at their fractions, and connects the cuts by a new face with the values
     /// of `f`.
     ///
-    /// The half-edges must be in clockwise order. If k follows h in `cuts`, then k must follow the twin of h around a
-    /// face. Only a half-edge of the beveled edge is allowed between the twin of h and k.
+    /// The half-edges must be in clockwise order. Let k be the half-edge after h in `cuts`. Around a face, k must
+    /// follow the twin of h; only a half-edge of the beveled edge is allowed in between.
     fn join_cuts(&mut self, cuts: &[(HalfEdgeId, f64)], f: FaceId) -> FaceId {
         self.drop_columns_by_rule();
         let n = cuts.len();

@@ -20,10 +20,10 @@ impl Mesh {
     ///
     /// All existing ids stay the same. New edges and faces are numbered along the longer loop (the loop of `h` if both
     /// loops have the same length). The first face lies between `h` and `g`. The first new edge joins the origin of `h`
-    /// to the target of `g`, or, if the loop of `g` is longer, the origin of `g` to the target of `h`. Each new face
-    /// has one edge of the longer loop, and gets the values of the old face on the other side of this edge. Each new
-    /// corner lies on one of the two loops. If the new face has an edge of this loop, the corner gets the values of the
-    /// existing corner at the same vertex on the other side of this edge. A triangle has no edge of the shorter loop.
+    /// to the target of `g`. If the loop of `g` is longer, the edge joins the origin of `g` to the target of `h`
+    /// instead. Each new face has one edge of the longer loop, and gets the values of the old face on the other side of
+    /// this edge. Each new corner lies on one of the two loops. If the new face has an edge of this loop, the corner
+    /// copies the corner at the same vertex on the other side of this edge. A triangle has no edge of the shorter loop.
     /// For the corner of a triangle at the shorter loop, the edge of the last quad before the triangle is used instead.
     /// New edges have zero attribute values.
     ///
@@ -32,9 +32,9 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, and [`EditError::SameLoop`] if they lie on the same
-    /// loop. Each new edge would join two vertices: returns [`EditError::DuplicateEdge`] if they already share an edge
-    /// or are the same vertex. Returns [`EditError::NoSuchHalfEdge`] if `h` or `g` does not exist, and
-    /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
+    /// loop. Returns [`EditError::DuplicateEdge`] if a new edge would join two vertices that already share an edge, or
+    /// a vertex to itself. Returns [`EditError::NoSuchHalfEdge`] if `h` or `g` does not exist, and [`EditError::Full`]
+    /// if there are not enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -61,11 +61,11 @@ impl Mesh {
         if long.len() < short.len() {
             std::mem::swap(&mut long, &mut short);
         }
-        // The half-edges of the short loop after the first are reversed, because the two loops run in opposite
-        // directions.
+        // The first half-edge of the short loop stays first; the others are put in reverse order, because the two loops
+        // run in opposite directions.
         short[1..].reverse();
         let (n, m) = (long.len(), short.len());
-        // Rung i is a new edge between the loops, from the origin of half-edge i of the long loop to the target of
+        // Rung i is a new edge between the loops. It joins the origin of half-edge i of the long loop to the target of
         // half-edge `short_index(i)` of the short loop. `short_index` rounds up, so that the first face is a quad.
         let short_index = |i: usize| (i * m).div_ceil(n);
         let rungs: Vec<_> = (0..n)

@@ -26,10 +26,11 @@ impl Mesh {
     /// these keep their values at v. At v, the corners of the faces beside `e` get interpolated values. Each corner is
     /// interpolated within its face, so both sides of a seam stay separate. A face that is not beside `e` can also have
     /// a corner at an end of `e`. For each attribute, the old value of this corner is compared with the old values of
-    /// the faces beside `e` at the same end. If the old value of one of these faces is equal, the corner gets the new
-    /// value of this face at v. Otherwise, the corner keeps its old value. When two edges become one, the remaining
-    /// edge gets the larger of the two values of each floating-point attribute, so that creases are preserved. A tag is
-    /// set if either edge had this tag. Attributes of other types keep the value of the remaining edge.
+    /// the corners at the same end in the faces beside `e`. If one of these values is equal, the corner gets the new
+    /// value that the same face has at v. Otherwise, the corner keeps its old value. When two edges become one, the
+    /// remaining edge gets the larger of the two values of each floating-point attribute, so that creases are
+    /// preserved. A tag is set if either edge had this tag. Attributes of other types keep the value of the remaining
+    /// edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
@@ -280,7 +281,7 @@ impl Mesh {
 
     // ---- Changes -------------------------------------------------------------------------------
 
-    /// Changes the origin of all half-edges that leave the origin of `h`. Their new origin is `v`, the target of `h`.
+    /// Makes all half-edges that leave the origin of `h` leave `v` instead. `v` is the target of `h`.
     fn move_half_edges(&mut self, h: HalfEdgeId, v: VertexId) {
         let removed = self.origin(h);
         // The stored half-edge of a boundary vertex must be a half-edge without a face.
@@ -319,7 +320,8 @@ impl Mesh {
         }
     }
 
-    /// The edge `e` will collapse to the point at `t` on it. Sets the values of the corners at both ends of `e`.
+    /// The edge `e` will collapse to its point with the parameter `t`. Sets the values of the corners at both ends of
+    /// `e`.
     fn mix_corners_along(&mut self, e: EdgeId, t: f64, v: VertexId) {
         if !self.has_corner_columns() {
             return;

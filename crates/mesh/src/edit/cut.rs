@@ -154,8 +154,8 @@ impl Mesh {
         pairs.map(|(&e, h)| self.duplicate_edge(e, h)).collect()
     }
 
-    /// Adds a copy of `e` that gets the face of the second half-edge of `e`. `before` is the half-edge that preceded
-    /// the second half-edge of `e` before any edge was duplicated.
+    /// Adds a copy of `e` that gets the face of the second half-edge of `e`. Before any edge was duplicated, the
+    /// half-edge `before` preceded the second half-edge of `e`.
     fn duplicate_edge(&mut self, e: EdgeId, before: HalfEdgeId) -> EdgeId {
         let [_, old] = e.half_edges();
         let (after, face) = (self.next(old), self.face(old));
@@ -181,9 +181,8 @@ impl Mesh {
 
 /// Returns the parts of a fan after its cut edges were duplicated. The fan must start at the boundary or at a cut.
 fn parts(fan: &[HalfEdgeId], copy_of: impl Fn(HalfEdgeId) -> Option<EdgeId>) -> Vec<Part> {
-    // Returns two outgoing half-edges at the cut along the edge of h. The first is the last half-edge, in clockwise
-    // order, of the part before the cut. The second is the first half-edge of the part after the cut. The second
-    // half-edge is on the boundary.
+    // Returns the two outgoing half-edges at the cut along the edge of h, in clockwise order: the last half-edge of the
+    // part before the cut, and the first half-edge of the part after the cut. The latter is on the boundary.
     let sides = |h: HalfEdgeId| {
         let [first, second] = copy_of(h)?.half_edges();
         let is_first = h == h.edge().half_edge();

@@ -19,11 +19,11 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Boundary`] if `e` has a face on only one side; [`EditError::SameFace`] if the same face is
-    /// on both sides; [`EditError::FewEdges`] if an end of `e` has only two edges (remove that vertex first, with
-    /// [`dissolve_vertex`](Self::dissolve_vertex)); [`EditError::RepeatedVertex`] if the faces have another vertex in
-    /// common; or [`EditError::Seam`] if corner attributes differ across `e`. Returns [`EditError::NoSuchEdge`] if `e`
-    /// does not exist. After an error, the mesh is unchanged.
+    /// Returns [`EditError::Boundary`] if `e` has a face on only one side, and [`EditError::SameFace`] if the same face
+    /// is on both sides. Returns [`EditError::FewEdges`] if an end of `e` has only two edges (remove that vertex first,
+    /// with [`dissolve_vertex`](Self::dissolve_vertex)). Returns [`EditError::RepeatedVertex`] if the faces have
+    /// another vertex in common, and [`EditError::Seam`] if corner attributes differ across `e`. Returns
+    /// [`EditError::NoSuchEdge`] if `e` does not exist. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///

@@ -62,8 +62,8 @@ impl Mesh {
 
     /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex); `seams` decides what happens if corner
     /// attributes differ across an edge at `v` (a seam). With [`Seams::Drop`], the vertex is removed. At the other end
-    /// of a seam edge, two corners with different values become one corner, which keeps the value of the face that
-    /// follows the edge counter-clockwise around `v`.
+    /// of a seam edge, two corners with different values become one corner. This corner keeps the value of the face
+    /// that follows the seam edge counter-clockwise around `v`.
     ///
     /// # Errors
     ///
@@ -183,9 +183,10 @@ impl Mesh {
         largest
     }
 
-    /// Returns a vertex that the merged face would contain twice. `rim` has the half-edges around all faces except the
-    /// face of the spoke `large`. To save time, this function does not walk around the face of `large`, because this
-    /// face has the most corners.
+    /// Returns a vertex that the merged face would contain twice. `large` is one of the spokes (the outgoing half-edges
+    /// of the vertex that will be removed). `rim` has the half-edges around all merged faces except the face of
+    /// `large`. To save time, this function does not walk around the face of `large`, because this face has the most
+    /// corners.
     fn repeated_after_merge(
         &self,
         spokes: &[HalfEdgeId],

@@ -29,9 +29,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::NotBoundary`] if `h` has a face, [`EditError::ShortLoop`] if the hole has two edges (use
-    /// [`stitch_edges`](Self::stitch_edges) instead), or [`EditError::Pinch`] if the hole contains a vertex twice.
-    /// Returns [`EditError::NoSuchHalfEdge`] if `h` does not exist. After an error, the mesh is unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` has a face, and [`EditError::Pinch`] if the hole contains a vertex
+    /// twice. Returns [`EditError::ShortLoop`] if the hole has two edges (use [`stitch_edges`](Self::stitch_edges)
+    /// instead). Returns [`EditError::NoSuchHalfEdge`] if `h` does not exist. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -56,8 +56,8 @@ impl Mesh {
     }
 
     /// Fills a hole with triangles, by cutting off ears. `h` is a half-edge of the hole: it has no face. Each number in
-    /// `ears` is the index of a vertex on the rim; the origin of `h` has the index 0. A triangle cuts off this vertex:
-    /// its other two corners are the two remaining vertices of the rim next to this vertex.
+    /// `ears` is the index of a vertex on the rim; the origin of `h` has the index 0. A triangle (an ear) cuts off this
+    /// vertex: it joins the vertex to its two neighbors among the remaining vertices of the rim.
     ///
     /// ```text
     ///    +-----+-----+          +-----+-----+
@@ -140,7 +140,7 @@ impl Mesh {
         }
     }
 
-    /// Returns the corner at the origin of a boundary half-edge, in the face on the other side of its edge.
+    /// Returns the corner at the origin of the boundary half-edge `h`, in the face on the other side of the edge.
     pub(super) fn corner_beside(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.next(h.twin())
     }

@@ -226,7 +226,7 @@ impl Mesh {
         }
     }
 
-    /// If `old` is the half-edge that its face stores, makes the face store `new` instead.
+    /// If the face of `old` stores `old` as its half-edge, makes the face store `new` instead.
     #[inline]
     fn replace_first_of_face(&mut self, old: HalfEdgeId, new: HalfEdgeId) {
         if let Some(f) = self.face(old).filter(|&f| self.face_half_edge(f) == old) {
@@ -234,7 +234,7 @@ impl Mesh {
         }
     }
 
-    /// If `old` is the half-edge that its origin stores, makes the origin store `new` instead.
+    /// If the origin of `old` stores `old` as its half-edge, makes the origin store `new` instead.
     #[inline]
     fn replace_first_of_vertex(&mut self, old: HalfEdgeId, new: HalfEdgeId) {
         let v = self.origin(old);
@@ -250,7 +250,7 @@ impl Mesh {
         copy
     }
 
-    /// Adds a face with `h` as its half-edge and with the values of `f`.
+    /// Adds a face that stores `h` as its half-edge and has the values of `f`.
     fn push_copy_of_face(&mut self, f: FaceId, h: HalfEdgeId) -> FaceId {
         let copy = self.push_face(h);
         self.copy_values(f, copy);

@@ -5,8 +5,8 @@ use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 
 impl Mesh {
     /// Reverses the orientation of faces, so that inside and outside are exchanged. The faces must form whole connected
-    /// components: if only one of the two faces at an edge were reversed, both would run along the edge in the same
-    /// direction.
+    /// components. If only one of the two faces at an edge were reversed, both faces would run along the edge in the
+    /// same direction.
     ///
     /// ```text
     ///       c                    c

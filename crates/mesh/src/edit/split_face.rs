@@ -21,10 +21,11 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::WrongCorner`] if `x` has no face or `y` is not on the same face; [`EditError::Adjacent`] if
-    /// the corners are the same, adjacent, or at the same vertex; or [`EditError::DuplicateEdge`] if the vertices share
-    /// an edge outside the face. Returns [`EditError::NoSuchHalfEdge`] if `x` or `y` does not exist, and
-    /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
+    /// Returns [`EditError::WrongCorner`] if `x` has no face or `y` is not on the same face, and
+    /// [`EditError::Adjacent`] if the corners are the same, adjacent, or at the same vertex. Returns
+    /// [`EditError::DuplicateEdge`] if the vertices share an edge outside the face. Returns
+    /// [`EditError::NoSuchHalfEdge`] if `x` or `y` does not exist, and [`EditError::Full`] if there are not enough ids
+    /// for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -68,11 +69,11 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::DuplicateEdge`] if the vertices share an edge; [`EditError::NoCut`] if no face has both
-    /// vertices as corners, or if `v` is `w`; or [`EditError::SeveralCuts`] if several faces have both vertices as
-    /// corners or if one face contains one of the vertices twice. Returns [`EditError::NoSuchVertex`] if a vertex does
-    /// not exist, and [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is
-    /// unchanged.
+    /// Returns [`EditError::DuplicateEdge`] if the vertices share an edge. Returns [`EditError::NoCut`] if no face has
+    /// both vertices as corners, or if `v` is `w`. Returns [`EditError::SeveralCuts`] if several faces have both
+    /// vertices as corners, or if one face contains one of the vertices twice. Returns [`EditError::NoSuchVertex`] if a
+    /// vertex does not exist, and [`EditError::Full`] if there are not enough ids for the new elements. After an error,
+    /// the mesh is unchanged.
     ///
     /// [`split_face`]: Self::split_face
     pub fn connect_vertices(&mut self, v: VertexId, w: VertexId) -> Result<EdgeId, EditError> {
@@ -99,9 +100,8 @@ impl Mesh {
         self.split_face(x, y)
     }
 
-    /// Adds an edge between the origins of `x` and `y`, which are half-edges of one face. The part
-    /// of the face that has the half-edge `moved` becomes a new face; the other part keeps the id
-    /// of the face.
+    /// Adds an edge between the origins of `x` and `y`, which are half-edges of one face. The part with the half-edge
+    /// `moved` becomes a new face; the other part keeps the id of the old face.
     pub(super) fn insert_edge(
         &mut self,
         x: HalfEdgeId,

@@ -27,9 +27,9 @@ impl Mesh {
     /// can already be the same vertex before the stitch. Of the two vertices at each end, the vertex with the lower id
     /// remains and keeps its position and values; the other vertex dies. The edge with the lower id remains, keeps its
     /// values and gets both faces; the other edge dies. Corners keep their values, so different UVs form a seam. If the
-    /// stitch would leave a hole with only two edges, these two edges are stitched too, because a list of polygons
-    /// cannot represent a hole with two edges. To close a whole cut, stitch its pairs of edges one after the other,
-    /// starting at an end of the cut.
+    /// stitch would leave a hole with only two edges, these two edges are stitched too. A list of polygons cannot
+    /// represent a hole with two edges. To close a whole cut, stitch its pairs of edges one after the other, starting
+    /// at an end of the cut.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.
@@ -153,8 +153,8 @@ impl Mesh {
         self.kill(from);
     }
 
-    /// Merges the edges of two half-edges without faces. The edge with the lower id remains. `before` is the half-edge
-    /// that preceded the replaced half-edge before any edges were merged.
+    /// Merges the edges of two half-edges without faces. The edge with the lower id remains. Before any edges were
+    /// merged, the half-edge `before` preceded the replaced half-edge.
     fn merge_edges(&mut self, pair: Pair, before: HalfEdgeId) -> EdgeId {
         let (kept, old) = (pair[0].min(pair[1]), replaced(pair));
         // If another half-edge has already replaced `before` in the face, `next` leads from `before` to that half-edge.

@@ -34,8 +34,8 @@ impl Random {
     }
 }
 
-/// Returns the expected result for polygons that keep their orientation: the arrays, and for each vertex of the result,
-/// the input vertex from which it comes. A copy comes from the vertex that was split.
+/// Returns the expected result for polygons that keep their orientation: the arrays, and a list of the input vertices
+/// from which the vertices of the result come. A copy comes from the vertex that was split.
 fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usize>) {
     let is_valid = |p: &&Vec<u32>| {
         let unique: std::collections::BTreeSet<_> = p.iter().collect();
@@ -109,7 +109,7 @@ fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usiz
             first_sides.push(c);
         }
     }
-    // The boundary continues from each boundary half-edge to the boundary half-edge that leaves its target.
+    // At the target of each boundary half-edge, the boundary continues along the boundary half-edge that starts there.
     let mut boundary = BTreeMap::new();
     for &c in first_sides.iter().filter(|&&c| twin[c].is_none()) {
         boundary.insert(origin_of(next[c]), half_edge[c].twin());
@@ -160,7 +160,7 @@ fn both_builders_agree_on_random_polygons() {
 #[test]
 fn both_builders_agree_on_vertices_with_many_faces() {
     // In some rounds, there are vertices with more than 32 corners, which the builder sorts instead of comparing them
-    // in pairs. In most rounds, most edges have more than two sides.
+    // in pairs. In most rounds, most edges belong to more than two polygons.
     let mut random = Random(2);
     for _ in 0..20 {
         let polygons = random.polygons(7, 150);
@@ -175,7 +175,7 @@ fn both_builders_agree_on_vertices_with_many_faces() {
 fn the_report_lists_exactly_the_non_manifold_edges() {
     let mut random = Random(3);
     for round in 0..300 {
-        // With few polygons, there are edges with one side, with two sides and with more sides.
+        // With few polygons, there are edges of one polygon, of two polygons and of more polygons.
         let polygons = random.polygons(5, if round % 3 == 0 { 100 } else { 10 });
         let polygons: Vec<_> = polygons.into_iter().filter(|p| p.len() == 3).collect();
         let mut counts: BTreeMap<[u32; 2], [usize; 2]> = BTreeMap::new();

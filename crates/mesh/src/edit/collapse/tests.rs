@@ -130,7 +130,8 @@ fn larger_faces_lose_a_corner() {
 
 #[test]
 fn collapsing_a_boundary_edge_removes_its_triangle() {
-    // Collapses each outer edge of a fan of four triangles over a row of points.
+    // The fan has four triangles, which join a row of points to a common corner. In each round, one of its outer edges
+    // is collapsed.
     for first in [0, 1, 2, 3] {
         let points: Vec<DVec3> = (0..5).map(|i| point(f64::from(i), 0.)).collect();
         let positions = [&points[..], &[point(2., 2.)]].concat();

@@ -27,7 +27,8 @@ fn assert_same_topology(mesh: &Mesh, original: &Mesh) {
     assert_eq!(counts(mesh), counts(original));
 }
 
-/// Stitches the two sides of each cut edge, unless they were stitched together with a previous edge.
+/// Stitches the two sides of each cut edge. Skips an edge if the stitch of a previous edge has already stitched both
+/// sides.
 fn stitch_all(mesh: &mut Mesh, edges: &[EdgeId], new: &[EdgeId]) {
     for (e, new) in edges.iter().zip(new) {
         let ([_, h], [g, _]) = (e.half_edges(), new.half_edges());

@@ -184,7 +184,8 @@ fn a_seam_is_dropped_only_with_seams_drop() {
 
 #[test]
 fn a_seam_that_ends_at_the_vertex_is_allowed() {
-    // The corners at the tip have different values, as at the pole of a sphere. The corners on the rim do not.
+    // At the tip, the corners have different values, as at the pole of a sphere. At each vertex of the rim, the corners
+    // have equal values.
     let mut mesh = shapes::square();
     let m = mesh.poke_face(FaceId::new(0)).unwrap();
     let n = mesh.n_half_edges();
@@ -239,7 +240,7 @@ fn faces_that_visit_a_vertex_twice_are_refused() {
 
 #[test]
 fn a_second_edge_between_two_vertices_is_refused() {
-    // In a boundary loop of three edges, the other two corners share an edge.
+    // In a boundary loop of three edges, the two neighbors of a vertex share an edge.
     let tube = shapes::cylinder(3, false);
     assert_eq!(refused(&tube, 0), {
         let mesh = &tube;

@@ -119,7 +119,7 @@ fn a_strip_becomes_a_tube() {
 
 #[test]
 fn a_cut_is_closed_from_its_ends() {
-    // The hole has six edges. The first stitch leaves two pairs of edges, and the second leaves none.
+    // The hole has six edges. The first stitch leaves two pairs of edges to stitch, and the second leaves none.
     let mut mesh = shapes::icosahedron();
     let path: Vec<EdgeId> = [[0, 1], [1, 8], [8, 3]]
         .into_iter()

@@ -133,8 +133,8 @@ impl<'a> Field<'a> {
         self.values[h.index()]
     }
 
-    /// Returns the corner value at the target of a half-edge. Uses the corner in the face of the half-edge or, if the
-    /// half-edge has no face, in the face of its twin.
+    /// Returns the corner value at the target of a half-edge. If the half-edge has a face, uses the corner in this
+    /// face; otherwise, uses the corner in the face of its twin.
     fn far(&self, h: HalfEdgeId) -> DVec4 {
         if self.mesh.face(h).is_some() {
             self.of(self.mesh.next(h))

@@ -1,8 +1,8 @@
 //! Splits every old edge in two, as most schemes do.
 //!
 //! New edges are numbered so that the id of each new half-edge can be computed from the old ids, without a search. V is
-//! the number of old vertices. Old edge e consists of half-edge 2e, which is called h and runs from a to b, and its
-//! twin. The edge becomes the new edges 2e and 2e + 1, which meet at the new vertex V + e:
+//! the number of old vertices. Old edge e consists of half-edge 2e and its twin. Half-edge 2e is called h below, and
+//! runs from a to b. The old edge becomes the new edges 2e and 2e + 1, which meet at the new vertex V + e:
 //!
 //! ```text
 //!            first(h) = 4e            second(h) = 4e + 2
@@ -15,9 +15,9 @@
 //! ```
 //!
 //! Each vertex stores one outgoing half-edge. An old vertex stores the first part of the half-edge that it stored
-//! before. If the old half-edge is on the boundary, its first part is on the boundary, too. A new vertex stores the
-//! second part of one of the two half-edges of its old edge. If the old edge is on the boundary, this is the boundary
-//! half-edge.
+//! before. If the old half-edge is on the boundary, its first part is on the boundary, too. A new vertex lies on an old
+//! edge, and stores the second part of one of the two half-edges of this edge. If the old edge is on the boundary, the
+//! part of the boundary half-edge is stored.
 //!
 //! The four half-edges and the vertex of each old edge are computed from the old mesh only, so all old edges can
 //! be processed in parallel. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop
@@ -30,13 +30,13 @@ use crate::links::{self, Arrays, Entries};
 use crate::parallel::fill_uncounted;
 use crate::topology::Place;
 
-/// Returns the part of half-edge `h` that starts at its origin.
+/// Returns the first part of half-edge `h`, which starts at the origin of `h`.
 #[inline]
 pub(crate) fn first(h: HalfEdgeId) -> HalfEdgeId {
     HalfEdgeId::new(2 * h.index() + (h.index() & 1))
 }
 
-/// Returns the part of half-edge `h` that ends at its target.
+/// Returns the second part of half-edge `h`, which ends at the target of `h`.
 #[inline]
 pub(crate) fn second(h: HalfEdgeId) -> HalfEdgeId {
     HalfEdgeId::new(first(h).index() ^ 2)
@@ -66,7 +66,7 @@ pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
 /// For the two parts of a half-edge: the next half-edge of each part, and the face of each part.
 pub(crate) type PartLinks = ([HalfEdgeId; 2], [FaceId; 2]);
 
-/// The end of the arrays of the next level, for the new elements that do not lie on old edges.
+/// The last entries of the arrays of the next level: the entries of the new elements that do not lie on old edges.
 pub(crate) struct AddedArrays<'n> {
     pub(crate) halves: Arrays<'n>,
     /// The stored half-edges of the new vertices that do not lie on old edges.

@@ -1,4 +1,4 @@
-//! Subdivision surfaces: each level refines a coarse mesh into a finer mesh, which converges to a surface.
+//! Subdivision surfaces: each level refines the mesh, and the refined meshes converge to a surface.
 //!
 //! Each level adds vertices on edges, in faces, or both, and connects the vertices into smaller faces. Most smooth
 //! schemes also move each old vertex to a weighted mean of its neighborhood. Butterfly keeps the old vertices in place,

@@ -109,7 +109,7 @@ impl<'a> Quads<'a> {
         ((0..c % 4).fold(start, |h, _| self.mesh.next(h)), f)
     }
 
-    /// Returns the half-edge of the spoke of corner `c` that runs to the center.
+    /// Returns a half-edge of the spoke of corner `c`: the half-edge that ends at the center.
     #[inline]
     fn out(&self, c: usize) -> HalfEdgeId {
         HalfEdgeId::new(4 * self.n_edges + 2 * c)
@@ -139,7 +139,7 @@ impl<'a> Quads<'a> {
         }
     }
 
-    /// Returns the half-edge of the center of a face.
+    /// Returns the half-edge that the vertex at the center of face `f` stores.
     #[inline]
     fn leaving_center(&self, f: FaceId) -> HalfEdgeId {
         let [_, c, _] = self.corners(self.mesh.face_half_edge(f), f);

@@ -41,7 +41,7 @@ pub(crate) struct Sharpness<'a> {
 pub(crate) enum VertexRule<K> {
     /// The vertex moves by the mask of the scheme.
     Smooth,
-    /// The vertex moves by the mask of a crease along these two edges.
+    /// The vertex moves by the crease mask. The crease consists of these two edges.
     Crease([K; 2]),
     /// The vertex stays in place.
     Corner,
@@ -207,8 +207,8 @@ impl<'a> Sharpness<'a> {
         self.vertices.map_or(0.0, |s| s[v.index()].max(0.0))
     }
 
-    /// Two boundary edges meet at the origin of boundary half-edge `h`. Returns the outgoing half-edge of the edge that
-    /// does not contain `h`.
+    /// Two boundary edges meet at the origin of boundary half-edge `h`. One of them contains `h`; returns the outgoing
+    /// half-edge of the other edge.
     #[inline]
     fn clockwise_last(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.mesh.prev(h).twin()

@@ -64,7 +64,8 @@ pub struct Size<N = u64> {
     pub isolated: N,
     /// The number of inner vertices of valence 2.
     pub inner_of_valence_2: N,
-    /// The number of bytes that all attributes together take for one vertex, one corner, one edge and one face.
+    /// For each domain, the number of bytes that all attributes together take for one element. The order is: vertices,
+    /// corners, edges, faces.
     pub attributes: [u64; 4],
 }
 

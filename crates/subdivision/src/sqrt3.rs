@@ -1,10 +1,10 @@
 //! The connectivity of Sqrt3 subdivision: every triangle is split into three, then the old edges are flipped.
 //!
-//! The old mesh has V vertices, E edges and F faces. Half-edge h runs from a to b and has face f, whose opposite corner
-//! is c; its twin t has face g. Every face gets the vertex V + f at its center and three spokes, the edges from its
+//! The old mesh has V vertices, E edges and F faces. Half-edge h runs from a to b and has face f, whose third corner is
+//! c. The twin t of h has face g. Every face gets the vertex V + f at its center and three spokes, the edges from its
 //! corners to the center. Every inner edge is flipped, so that it connects two centers. Edges keep their ids. The spoke
-//! of the k-th corner of face f is edge E + 3f + k. If the corner is at the origin of h, spoke(h) is the half-edge of
-//! this spoke that starts there. T(h), the k-th triangle of face f, is 3f + k:
+//! of the k-th corner of face f is edge E + 3f + k. If the corner is at the origin of h, spoke(h) is the half-edge that
+//! runs along this spoke from the corner to the center. T(h), the k-th triangle of face f, is 3f + k:
 //!
 //! ```text
 //!              c                           c

@@ -27,9 +27,9 @@ pub(crate) trait Topology: Sync {
     /// If new face `i` is a part of an old face, returns the old face.
     fn face(&self, i: usize) -> Option<usize>;
 
-    /// Edge `i` of the next level can be the part at one end of an old edge. In this case, returns the half-edge of the
-    /// old edge that starts at this end. The default is for schemes that split each edge in two, and in which the parts
-    /// of old edges have lower ids than all other edges.
+    /// Edge `i` of the next level can be the part at one end of an old edge. In this case, returns the half-edge that
+    /// starts at this end of the old edge. The default is for schemes that split each old edge in two and number the
+    /// parts of old edges before all other edges.
     fn half(&self, i: usize) -> Option<HalfEdgeId> {
         self.edge(i).map(|_| HalfEdgeId::new(i))
     }
@@ -64,8 +64,8 @@ pub(crate) enum Place {
     Outside,
 }
 
-/// Returns the location on the edge of `h`, at 1/n of the way from the origin of `h`. The location is in the face of
-/// `h` or, if `h` has no face, in the face of its twin.
+/// Returns the location on the edge of `h`, at 1/n of the way from the origin of `h`. If `h` has a face, the location
+/// is in this face; otherwise, it is in the face of the twin of `h`.
 pub(crate) fn place_near_origin(mesh: &Mesh, h: HalfEdgeId, n: u32) -> Place {
     if mesh.face(h).is_some() {
         Place::Toward([h, mesh.next(h)], n)

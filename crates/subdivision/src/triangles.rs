@@ -33,7 +33,7 @@ use crate::topology::{Place, Topology};
 pub(crate) struct Triangles<'a>(pub(crate) &'a Mesh);
 
 impl Triangles<'_> {
-    /// Returns the half-edge cut k of face `f`, which belongs to the triangle at corner `k`.
+    /// Returns cut k: the half-edge, on a new edge inside face `f`, that belongs to the triangle at corner `k`.
     #[inline]
     fn cut(&self, f: FaceId, k: usize) -> HalfEdgeId {
         HalfEdgeId::new(4 * self.0.n_edges() + 6 * f.index() + 2 * k)

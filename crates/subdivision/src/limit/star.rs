@@ -5,8 +5,8 @@ use mesh::{DVec3, HalfEdgeId, Mesh, VertexId};
 use crate::rules::{Creasing, LoopWeights, Rules, Scheme};
 use crate::sharpness::{Blend, INFINITE, SemiSharp, Sharpness, VertexRule, decreased};
 
-/// A vertex and its neighbors. For Catmull-Clark, also the corner of each surrounding quad that is opposite to the
-/// vertex. One level of subdivision maps a star to a smaller star with the same connectivity.
+/// A vertex and its neighbors. For Catmull-Clark, also the opposite corners of the quads around the vertex. One level
+/// of subdivision maps a star to a smaller star with the same connectivity.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Star {
     pub(crate) center: DVec3,

@@ -102,8 +102,8 @@ impl<I: Copy> PartTable<I> {
     }
 }
 
-/// A side of a triangle that is cut into four: the old half-edges before and after the middle of the side. The
-/// two half-edges differ if the side has a hanging vertex; otherwise both are the half-edge of the side.
+/// A side of a triangle, if the triangle is cut into four: the old half-edges before and after the middle of the side.
+/// The two half-edges differ if the side has a hanging vertex; otherwise both are the half-edge of the side.
 #[derive(Clone, Copy)]
 pub(super) struct Side {
     pub(super) to: HalfEdgeId,
@@ -157,7 +157,8 @@ impl<'a> Pieces<'a> {
         self.on_edges.first(e.index())
     }
 
-    /// Returns the part of a half-edge that starts at its origin: the whole half-edge if the edge is not cut.
+    /// Returns the first part of a half-edge: the part that starts at its origin, or the whole half-edge if the edge is
+    /// not cut.
     pub(super) fn first(&self, h: HalfEdgeId) -> HalfEdgeId {
         let e = h.edge();
         let is_second_half = h.index() % 2;
@@ -165,7 +166,7 @@ impl<'a> Pieces<'a> {
         HalfEdgeId::new(2 * (self.first_edge(e) + is_behind) + is_second_half)
     }
 
-    /// Returns the part of a half-edge that ends at its target. The edge must be cut.
+    /// Returns the second part of a half-edge: the part that ends at its target. The edge must be cut.
     pub(super) fn second(&self, h: HalfEdgeId) -> HalfEdgeId {
         let e = h.edge();
         let is_second_half = h.index() % 2;

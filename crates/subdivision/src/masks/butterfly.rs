@@ -117,8 +117,8 @@ impl ButterflyMasks<'_> {
         }
     }
 
-    /// Calls `add` for each old vertex that contributes to the new vertex of a boundary edge, with its weight. `h` is
-    /// the boundary half-edge of this edge.
+    /// `h` is the boundary half-edge of a boundary edge. Calls `add` with each old vertex that contributes to the new
+    /// vertex on this edge, and with the weight of the old vertex.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.0;
         add(mesh.origin(mesh.prev(h)).index(), -0.0625);

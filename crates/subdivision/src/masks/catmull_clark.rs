@@ -75,8 +75,8 @@ impl Masks for CatmullClarkMasks<'_> {
 }
 
 impl CatmullClarkMasks<'_> {
-    /// Vertex `i` is an old vertex or a new vertex on an edge. Calls `add` for each old vertex and each face center
-    /// that contributes to this vertex, with its weight.
+    /// Vertex `i` is an old vertex or a new vertex on an edge. Calls `add` with each old vertex and each face center
+    /// that contributes to this vertex, and with its weight in the sum.
     #[inline]
     fn over_centers(&self, i: usize, add: &mut impl FnMut(Source, f64)) {
         let n_vertices = self.mesh.n_vertices();

@@ -62,7 +62,8 @@ impl Masks for LoopMasks<'_> {
 }
 
 impl LoopMasks<'_> {
-    /// Calls `add` for each old vertex that contributes to the new vertex of an edge, with its weight.
+    /// Calls `add` with each old vertex that contributes to the new vertex on an edge, and with the weight of the old
+    /// vertex.
     #[inline]
     fn on_edge(&self, e: EdgeId, add: &mut impl FnMut(usize, f64)) {
         let [h, twin] = e.half_edges();

@@ -10,9 +10,9 @@
 //!      in a face          old, inside, valence n    old, boundary            new, boundary
 //! ```
 //!
-//! Here a = (4 - 2 cos(2π/n))/9. Even levels, counted from 0, leave the boundary unchanged; on odd levels each
-//! boundary edge gets two vertices, by the ternary subdivision of a uniform cubic B-spline curve. Source:
-//! Kobbelt, "√3-Subdivision", 2000.
+//! Here a = (4 - 2 cos(2π/n))/9. Even levels, counted from 0, leave the boundary unchanged. On odd levels, each
+//! boundary edge gets two vertices, by the ternary subdivision of a uniform cubic B-spline curve. Source: Kobbelt,
+//! "√3-Subdivision", 2000.
 
 use std::f64::consts::TAU;
 
@@ -55,7 +55,7 @@ impl Sqrt3<'_> {
     }
 
     /// The boundary edge of `h` gets a new vertex at a third of the way from the origin of `h` to its target. Calls
-    /// `add` for each old vertex that contributes to the new vertex, with its weight.
+    /// `add` with each old vertex that contributes to the new vertex, and with the weight of the old vertex.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.mesh;
         // h can be either half-edge of the boundary edge.

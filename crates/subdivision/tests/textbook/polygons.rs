@@ -105,7 +105,7 @@ impl<'a> Adjacency<'a> {
         !self.along_boundary(v).is_empty()
     }
 
-    /// Returns the neighbor of `v` along the boundary that is not `w`.
+    /// Of the two neighbors of `v` along the boundary, returns the one that is not `w`.
     pub(crate) fn beyond(&self, w: usize, v: usize) -> usize {
         let along = self.along_boundary(v);
         if along[0] == w { along[1] } else { along[0] }

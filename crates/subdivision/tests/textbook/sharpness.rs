@@ -133,7 +133,7 @@ impl Sharpness {
         self.edges[&edge(a, b)]
     }
 
-    /// Returns the sharpness, on the next level, of the half of the edge from `v` to `w` that is at `v`.
+    /// The next level divides the edge between `v` and `w` into two halves. Returns the sharpness of the half at `v`.
     pub(crate) fn of_half(&self, v: usize, w: usize) -> f64 {
         self.halves[&edge(v, w)][usize::from(v > w)]
     }
@@ -169,8 +169,8 @@ impl Sharpness {
     }
 
     /// If the rule of a vertex changes on the next level, the two rules are blended. Returns the weight of the current
-    /// rule. Of the vertex and its edges to `neighbors`, some elements become smooth. The weight is their mean
-    /// sharpness, limited to 1.
+    /// rule. Of the vertex and its edges to `neighbors`, only the elements that become smooth matter: the weight is the
+    /// mean of their sharpness, limited to 1.
     pub(crate) fn fraction(&self, v: usize, neighbors: &[usize]) -> f64 {
         let mut ending = Vec::new();
         if self.vertices[v] > 0.0 && self.children[v] <= 0.0 {

@@ -27,8 +27,8 @@ pub(crate) fn refine(mesh: &Polygons, cuts_boundary: bool) -> Polygons {
         );
     }
 
-    // The loop appends the new vertices and has two more results: `apex`, the new vertex opposite each side of a
-    // triangle, and the middle triangle of each triangle whose boundary side is cut in three.
+    // The loop appends the new vertices and fills two more collections: the new vertex opposite each side of a triangle
+    // (`apex`), and the middle triangle of each triangle whose boundary side is cut in three.
     let mut apex: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     let mut faces = Vec::new();
     for (f, face) in mesh.faces.iter().enumerate() {

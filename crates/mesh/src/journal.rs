@@ -5,9 +5,8 @@
 //! and then redone. Memory and time are proportional to the size of the change, not to the size of the mesh. While no
 //! journal is open, a write costs only one additional comparison.
 //!
-//! Calls can be nested: each `begin` opens a level, which the matching `commit` or `rollback` ends. An inner
-//! `rollback` undoes the edits since the inner `begin`; an inner `commit` makes these edits part of the outer
-//! level.
+//! Calls can be nested: each `begin` opens a level, and the matching `commit` or `rollback` ends this level. An inner
+//! `rollback` undoes the edits since the inner `begin`; an inner `commit` makes these edits part of the outer level.
 //!
 //! The journal is a stack of entries. An element that was added after the innermost level was opened needs no entry: an
 //! undo truncates the arrays to their old lengths. An undo in turn records the values that it overwrites; this record
@@ -40,7 +39,8 @@ impl Change {
             .all(|entry| matches!(entry, Entry::Level(_)))
     }
 
-    /// Returns the size of the change in bytes. Copies of whole arrays, which a change can contain, do not count.
+    /// Returns the size of the change in bytes. A change can also contain copies of whole arrays; these copies do not
+    /// count.
     pub fn bytes(&self) -> usize {
         size_of_val(self.entries.as_slice()) + self.values.len()
     }
@@ -96,7 +96,8 @@ pub(crate) enum Entry {
     Whole(Box<Mesh>),
     /// The lengths of the arrays at the start of a level. An undo truncates the arrays to these lengths.
     Level(Box<Lengths>),
-    /// The last entries of the arrays, which an undo has removed. A redo appends these entries to the arrays again.
+    /// The entries that an undo has removed from the ends of the arrays. A redo appends these entries to the arrays
+    /// again.
     Tail(Box<Tail>),
 }
 
@@ -273,8 +274,8 @@ impl Mesh {
             return Some(journal.recorded);
         };
         if outer.has_whole {
-            // The outer level of the journal already has a copy of the whole mesh, so it needs no entries of the inner
-            // level.
+            // The outer level of the journal already has a copy of the whole mesh. Therefore, it does not need the
+            // entries of the inner level.
             journal.recorded.entries.truncate(inner.start);
             journal.recorded.values.truncate(inner.first_value);
         } else if inner.has_whole {

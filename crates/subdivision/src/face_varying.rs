@@ -16,10 +16,10 @@
 //! [`FaceVarying`] defines the rules that select them. The rules are those of OpenSubdiv's face-varying interpolation.
 //! In this crate, the rules are applied to each level separately. So one call that computes two levels gives the same
 //! result as two calls that compute one level each. The results can differ from those of OpenSubdiv in one case: two
-//! pieces meet at a vertex, and a semi-sharp edge (sharp on the first levels only) is inside one of them. As long as
-//! the edge in one piece is sharp, the value of the other piece can stay unchanged, too. OpenSubdiv decides on the
-//! first level whether this value stays unchanged, and keeps the decision on all levels. If the pieces, their seam and
-//! their vertex have different semi-sharp values, the results on later levels can differ from those of OpenSubdiv.
+//! pieces meet at a vertex, and one of them contains a semi-sharp edge (sharp on the first levels only). As long as
+//! this edge is sharp, the value of the other piece can stay unchanged. OpenSubdiv decides on the first level whether
+//! this value stays unchanged, and keeps the decision on all levels. If the pieces, their seam and their vertex have
+//! different semi-sharp values, the results on later levels can differ from those of OpenSubdiv.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

@@ -86,7 +86,7 @@ impl Attributes {
     }
 
     /// Inserts a column into a domain. An existing column of this domain with the same name is replaced. The column
-    /// must have one value for each element of this domain in the mesh to which these attributes belong.
+    /// must have as many values as the mesh has elements in this domain.
     pub fn insert(&mut self, domain: Domain, column: Column) {
         let index = self.find(domain, &column.name);
         let columns = &mut self.columns[domain as usize];
@@ -186,7 +186,7 @@ impl Attributes {
 }
 
 impl Column {
-    /// Returns a copy of the column in which `values` replaces the values. The name and the rule stay the same.
+    /// Returns a column with the same name and rule, but with the given values.
     #[must_use]
     pub fn with_values(&self, values: Values) -> Self {
         Self {

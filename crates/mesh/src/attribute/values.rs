@@ -260,9 +260,9 @@ impl Values {
 pub trait Value:
     Copy + Default + PartialEq + Send + Sync + Zeroable + NoUninit + CheckedBitPattern + 'static
 {
-    /// Wraps a vector of this type in [`Values`].
+    /// Converts a list of values of this type to [`Values`].
     fn wrap(values: Vec<Self>) -> Values;
-    /// Returns the values, if they have this type.
+    /// Returns the list of values, if they have this type.
     fn of(values: &Values) -> Option<&[Self]>;
     /// Returns the values mutably, if they have this type.
     fn of_mut(values: &mut Values) -> Option<&mut [Self]>;

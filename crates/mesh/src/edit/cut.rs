@@ -30,18 +30,19 @@ impl Mesh {
     /// keep their values. Positions do not change: both sides of a cut coincide. [`stitch_edges`](Self::stitch_edges)
     /// is the inverse.
     ///
-    /// An edge cannot be cut if neither of its ends would be split. The cut would then be a hole with two edges (a
-    /// slit). A slit cannot be opened, and a list of polygons cannot represent it. The function [`slits`](Self::slits)
-    /// lists the edges that cannot be cut for this reason.
+    /// An edge can be cut only if the cut splits at least one of its ends. Otherwise, the cut would be a hole with two
+    /// edges (a slit). A slit cannot be opened, and a list of polygons cannot represent it. The function
+    /// [`slits`](Self::slits) lists the edges that cannot be cut for this reason.
     ///
     /// Returns the new edges. After the cut, new edge i lies on the other side of the cut along `edges[i]`.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Boundary`] if an edge is on the boundary, and [`EditError::DuplicateEdge`], with the ends
-    /// of the edge, if an edge would become a slit. Returns [`EditError::EdgeListedTwice`] or [`EditError::NoSuchEdge`]
-    /// if an edge is listed twice or does not exist. Returns [`EditError::NoElements`] if the list is empty, and
-    /// [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is unchanged.
+    /// Returns [`EditError::Boundary`] if an edge is on the boundary. Returns [`EditError::DuplicateEdge`], with the
+    /// ends of the edge, if an edge would become a slit. Returns [`EditError::EdgeListedTwice`] or
+    /// [`EditError::NoSuchEdge`] if an edge is listed twice or does not exist. Returns [`EditError::NoElements`] if the
+    /// list is empty, and [`EditError::Full`] if there are not enough ids for the new elements. After an error, the
+    /// mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -115,7 +116,8 @@ impl Mesh {
     }
 
     /// If all of `edges` were cut, some of them would become slits. Returns these edges in order of ids. An edge
-    /// becomes a slit if both of its ends are inside the mesh and no other edge of `edges` has one of these ends.
+    /// becomes a slit if both of its ends are inside the mesh, and no other edge in the list `edges` meets it at one of
+    /// its ends.
     ///
     /// # Panics
     ///

@@ -61,8 +61,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`inset_face`](Self::inset_face); also [`EditError::BadNumber`] if `height` or a raised
-    /// coordinate is not finite.
+    /// Returns the errors of [`inset_face`](Self::inset_face). Also returns [`EditError::BadNumber`] if `height` or a
+    /// raised coordinate is not finite.
     pub fn bevel_face(
         &mut self,
         f: FaceId,

@@ -12,10 +12,11 @@ impl Mesh {
     ///    a-----+           a/--f-+         g is new and has x and the half-edge b-a
     /// ```
     ///
-    /// `x` and `y` are half-edges of the face and denote the corners at their origins. The new edge runs from the
-    /// origin of `x` to the origin of `y`. The old face keeps `y` and gets the first half-edge of the new edge. The new
-    /// face gets `x` and the second half-edge of the new edge. Each corner at an end of the new edge has the values of
-    /// the old corner at this end. The new face has the values of the old face, and the new edge has zero values.
+    /// `x` and `y` are half-edges of the face. Each of them stands for the corner at which it starts. The new edge runs
+    /// from the origin of `x` to the origin of `y`. The old face keeps `y` and gets the first half-edge of the new
+    /// edge. The new face gets `x` and the second half-edge of the new edge. Each corner at an end of the new edge has
+    /// the values of the old corner at this end. The new face has the values of the old face, and the new edge has zero
+    /// values.
     ///
     /// Returns the new edge.
     ///

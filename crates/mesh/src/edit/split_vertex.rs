@@ -17,18 +17,19 @@ impl Mesh {
     ///        y|  g  \            y|  g  \
     /// ```
     ///
-    /// `x` and `y` denote the corners at their origin: `x` denotes the corner in f, and `y` the corner in g. The new
-    /// edge runs from v to w. The first half-edge of the new edge is on f, the second half-edge is on g, and both faces
-    /// gain a corner. If f or g is a hole, the new edge is on the boundary. The mesh gains one vertex and one edge. All
-    /// existing ids stay the same.
+    /// The half-edges `x` and `y` leave v and stand for two corners at v: `x` stands for the corner in f, and `y` for
+    /// the corner in g. The new edge runs from v to w. The first half-edge of the new edge is on f, the second
+    /// half-edge is on g, and both faces gain a corner. If f or g is a hole, the new edge is on the boundary. The mesh
+    /// gains one vertex and one edge. All existing ids stay the same.
     ///
     /// [`split_face`](Self::split_face) is the corresponding edit for faces. To undo the split, collapse the new edge
-    /// to the old position with [`collapse_edge_to`](Self::collapse_edge_to). The collapse can be refused only if,
-    /// before the split, two edges joined v to the same vertex or a face contained v twice. To undo a collapse that
+    /// to the old position with [`collapse_edge_to`](Self::collapse_edge_to). The collapse always succeeds if, before
+    /// the split, no two edges joined v to the same vertex and no face contained v twice. To undo a collapse that
     /// removed triangles, call `split_vertex`, then `split_face`.
     ///
-    /// The new vertex is at `position` and has the attributes of v. On each side of the new edge, the corners at both
-    /// ends of this edge have the values of the old corner on this side. The new edge has zero values.
+    /// The new vertex is at `position` and has the attributes of v. On each side of the new edge, the face has a corner
+    /// at both ends of the edge; both corners have the values of the old corner on this side. The new edge has zero
+    /// values.
     ///
     /// Returns the new edge.
     ///

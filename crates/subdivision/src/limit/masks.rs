@@ -162,9 +162,9 @@ impl Star {
     }
 
     /// Returns the directions of the first and the last spoke of a sector at a corner. These directions are tangents of
-    /// the crease curves. The two directions are swapped if the corner is concave. If the two directions do not span a
-    /// plane, or if the sector goes all the way around the vertex (a cone), returns two vectors that are perpendicular
-    /// to the mean of the face normals.
+    /// the crease curves. The two directions are swapped if the corner is concave. In two cases, returns two vectors
+    /// that are perpendicular to the mean of the face normals instead: if the two directions do not span a plane, or if
+    /// the sector goes all the way around the vertex (a cone).
     fn corner_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let arm = |i: usize| self.spoke(sector, i) - self.center;
         let faces = 0..sector.n_faces;

@@ -1,5 +1,5 @@
-//! The limit surface at the vertices of a mesh: the positions to which the vertices converge after many levels, and the
-//! tangent planes at these positions.
+//! The limit surface at the vertices of a mesh: the positions to which the vertices converge as the number of levels
+//! grows, and the tangent planes at these positions.
 //!
 //! If the sharpness at a vertex does not change with levels, the limit position is a weighted mean of the one-ring (the
 //! vertex and the vertices around it). The tangents are then weighted sums of the one-ring. The weights, called limit

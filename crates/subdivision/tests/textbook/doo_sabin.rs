@@ -13,8 +13,8 @@ pub(crate) fn refine(mesh: &Polygons) -> Polygons {
     let p = |v: usize| mesh.positions[v];
     let mut positions: Vec<DVec3> = Vec::new();
     let mut faces = Vec::new();
-    // `inside` maps each corner of a face to its new vertex. `outside` maps (v, w), where the edge from v to w is on
-    // the boundary, to the new vertex near v on this edge.
+    // `inside` maps each corner of a face to its new vertex. If the edge from v to w is on the boundary, `outside` maps
+    // (v, w) to the new vertex near v on this edge.
     let mut inside: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     let mut outside: BTreeMap<(usize, usize), usize> = BTreeMap::new();
 

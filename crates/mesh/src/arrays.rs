@@ -100,8 +100,8 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// Panics if two arrays for the same kind of element have different lengths, if the number of half-edges is odd, or
-    /// if the mesh has too many elements for 32-bit ids.
+    /// Panics if two arrays for the same kind of element have different lengths, or if the number of half-edges is odd.
+    /// Also panics if the mesh has too many elements for 32-bit ids.
     pub fn from_arrays(connectivity: Connectivity, positions: Vec<DVec3>) -> Self {
         let mesh = Self {
             connectivity,

@@ -347,9 +347,9 @@ impl Mesh {
         }
     }
 
-    /// If the entries take at least as many bytes as the mesh plus [`JOURNAL_ALLOWANCE`], replaces them by one copy of
-    /// the mesh as it was at `begin`. This function is called between edits. Does nothing while inner levels are open,
-    /// because an inner level is expected to record only a few edits.
+    /// If the entries take too much memory, replaces them by one copy of the mesh as it was at `begin`. The limit is
+    /// the size of the mesh plus [`JOURNAL_ALLOWANCE`]. This function is called between edits. Does nothing while inner
+    /// levels are open, because an inner level is expected to record only a few edits.
     pub(crate) fn bound_journal(&mut self) {
         let Some(journal) = &self.journal else { return };
         let [level] = journal.levels[..] else { return };

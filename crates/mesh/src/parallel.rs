@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use crate::zeroed::reserved;
 
 /// The number of elements in a block. With this size, the cost of scheduling a block is negligible. The size must not
-/// depend on the number of threads: sums are computed block by block, and the order of the additions determines the
+/// depend on the number of threads. Sums are computed block by block, and the order of the additions determines the
 /// last bits of a sum.
 pub const BLOCK: usize = 4096;
 

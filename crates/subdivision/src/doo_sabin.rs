@@ -26,7 +26,7 @@
 //! closes the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h). The
 //! edges of the half-edges join(h) come after all other edges, in order of h.
 //!
-//! Face f keeps its id, edge e becomes face F + e (F is the number of old faces), and the faces of vertices follow in
+//! Face f keeps its id, and edge e becomes face F + e (F is the number of old faces). The faces of vertices follow in
 //! order of the vertices. Isolated vertices have no faces. They are kept, and the ids of isolated vertices come after
 //! the ids of all other vertices. An inner vertex of valence 2 also has no face, because the face would have two
 //! corners. The two outgoing half-edges h and k of an inner vertex of valence 2 share one new edge. If h has a lower id

@@ -13,8 +13,8 @@ pub(crate) const BLOCK: usize = 4096;
 /// Processes one block of an array. The first argument is the index of the first element of the block.
 type Task<'a, T> = dyn Fn(usize, &mut [T]) -> Result<(), Cancelled> + Sync + 'a;
 
-/// Runs `task` on all blocks of an array in parallel. The task is `dyn`, here and in the functions below, so
-/// that the parallel loop is compiled once for each element type and not for each closure.
+/// Runs `task` on all blocks of an array in parallel. Here and in the functions below, the task is `dyn`. Therefore,
+/// the parallel loop is compiled once for each element type, and not for each closure.
 pub(crate) fn in_blocks<T: Send>(array: &mut [T], task: &Task<T>) -> Result<(), Cancelled> {
     let blocks = array.par_chunks_mut(BLOCK).enumerate();
     blocks.try_for_each(|(block, part)| task(block * BLOCK, part))

@@ -22,7 +22,7 @@
 //! vertices and vertices on edges store the same half-edges as in `halves`. The center of a face stores the twin of
 //! out(h), where h is the first half-edge of the face.
 //!
-//! In a mesh of quads the corners of face f are 4f to 4f + 3, and the corner of a half-edge follows from its position
+//! In a mesh of quads, the corners of face f are 4f to 4f + 3. The corner of a half-edge then follows from its position
 //! in the face. In other meshes, the corner indices are computed in advance. Only the first level can need computed
 //! corner indices, because afterwards all faces are quads. The idea is from Dupuy and Vanhoey, "A Halfedge Refinement
 //! Rule for Parallel Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.

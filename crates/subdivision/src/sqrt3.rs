@@ -32,9 +32,9 @@
 //!      even level          odd level
 //! ```
 //!
-//! The two edges of the triangle that are not on the boundary are flipped. Because the triangle has no center, the
-//! flipped edge that is nearer to x ends at x, and the flipped edge that is nearer to y ends at y. After two levels,
-//! every old edge, including every boundary edge, has become three edges. Source: Kobbelt, "√3-Subdivision", 2000.
+//! The two edges of the triangle that are not on the boundary are flipped. Because the triangle has no center, each
+//! flipped edge ends at x or at y, whichever is nearer. After two levels, every old edge, including every boundary
+//! edge, has become three edges. Source: Kobbelt, "√3-Subdivision", 2000.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

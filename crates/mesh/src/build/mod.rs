@@ -108,7 +108,7 @@ pub enum NonManifold {
     #[default]
     Split,
     /// Like [`Split`](Self::Split), but every polygon keeps its orientation. If two neighbors run along their common
-    /// edge in the same direction, the edge is split: each neighbor gets its own copy of the edge, and the copies are
+    /// edge in the same direction, the edge is split. Each neighbor gets its own copy of the edge, and the copies are
     /// not connected.
     SplitAsGiven,
     /// Reverse polygons where that makes the orientation consistent, and return an error if the result

@@ -30,8 +30,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::BoundaryVertex`] if `v` is on the boundary, [`EditError::FewEdges`] if it has fewer than
-    /// three edges, and [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1. Returns
+    /// Returns [`EditError::BoundaryVertex`] if `v` is on the boundary, and [`EditError::FewEdges`] if it has fewer
+    /// than three edges. Returns [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1. Returns
     /// [`EditError::NoSuchVertex`] if `v` does not exist, and [`EditError::Full`] if there are not enough ids for the
     /// new elements. After an error, the mesh is unchanged.
     ///

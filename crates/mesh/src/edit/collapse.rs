@@ -34,7 +34,7 @@ impl Mesh {
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
-    /// extended to polygons. For this test, each hole is treated as if it were closed by a cone of triangles, which
+    /// extended to polygons. For this test, each hole is treated as if a cone of triangles closed it: the triangles
     /// join the edges of the hole to an additional vertex. The two ends of `e` are allowed to share a neighbor only if
     /// this neighbor is a corner of a triangle beside `e`. The two ends are allowed to share a face only if this face
     /// is beside `e`.

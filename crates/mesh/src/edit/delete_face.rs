@@ -18,8 +18,8 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This error occurs if
-    /// the vertex is on the boundary of the mesh, but neither of the two edges of `f` at the vertex is a boundary edge.
-    /// Returns [`EditError::NoSuchFace`] if `f` does not exist. After an error, the mesh is unchanged.
+    /// the vertex is on the boundary of the mesh, but both edges of `f` at the vertex have another face. Returns
+    /// [`EditError::NoSuchFace`] if `f` does not exist. After an error, the mesh is unchanged.
     pub fn delete_face(&mut self, f: FaceId) -> Result<(), EditError> {
         self.delete_faces(&[f])
     }

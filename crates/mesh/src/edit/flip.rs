@@ -26,16 +26,16 @@ impl Mesh {
     ///
     /// Between two triangles, the edge becomes the other diagonal of the quadrilateral that the triangles form. After
     /// four flips of an edge between two triangles, the mesh is as before, except that vertices and faces possibly
-    /// store different half-edges. All ids stay the same. Before the flip, `e` runs from a to b; afterwards from d to
-    /// c, where c follows b on face f, and d follows a on face g. The first half-edge of `e` stays on f. Attributes of
-    /// vertices, edges and faces stay with their ids. The new corners at c and d get the values of the corner at the
-    /// same vertex in the other face.
+    /// store different half-edges. All ids stay the same. Before the flip, `e` runs from a to b; afterwards, it runs
+    /// from d to c. Before the flip, c follows b on face f, and d follows a on face g. The first half-edge of `e` stays
+    /// on f. Attributes of vertices, edges and faces stay with their ids. The new corners at c and d get the values of
+    /// the corner at the same vertex in the other face.
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::Boundary`] if `e` has a face on only one side, [`EditError::SameFace`] if the same face is
-    /// on both sides, and [`EditError::FewEdges`] if an end of `e` has only two edges. Let c and d be the vertices to
-    /// which the ends of `e` would move: returns [`EditError::SameOpposite`] if c is d, and
+    /// Returns [`EditError::Boundary`] if `e` has a face on only one side, and [`EditError::SameFace`] if the same face
+    /// is on both sides. Returns [`EditError::FewEdges`] if an end of `e` has only two edges. Let c and d be the
+    /// vertices to which the ends of `e` would move. Returns [`EditError::SameOpposite`] if c is d, and
     /// [`EditError::DuplicateEdge`] if c and d already share an edge. Returns [`EditError::Seam`] if corner attributes
     /// differ across `e`, and [`EditError::NoSuchEdge`] if `e` does not exist. After an error, the mesh is unchanged.
     ///

@@ -28,10 +28,10 @@ impl Mesh {
     /// half-edge.
     ///
     /// Each new vertex, and each corner at a new vertex, gets values that are interpolated with t = `fraction`. At t =
-    /// 0, the interpolated values are the values at the outer corner; at t = 1, they are the mean of the values at all
+    /// 0, the interpolated values are the values at the outer corner. At t = 1, they are the mean of the values at all
     /// corners of the face. Attributes that are not interpolated are copied from the outer corner. Inner edges have the
-    /// values of the outer edges, the edges between outer and inner vertices have zero values, and the faces of the
-    /// ring have the values of `f`.
+    /// values of the outer edges, and the faces of the ring have the values of `f`. The edges between outer and inner
+    /// vertices have zero values.
     ///
     /// Returns the faces of the ring, in the order of the half-edges of `f`.
     ///
@@ -107,7 +107,7 @@ impl Mesh {
     }
 
     /// Sets the interpolated values of each element of `to`. At `t` = 0, an element gets the values of the element with
-    /// the same index in `from`; at `t` = 1, it gets the mean of all elements of `from`.
+    /// the same index in `from`. At `t` = 1, an element gets the mean of all elements of `from`.
     fn mix_with_mean<I: Id>(&mut self, from: &[I], t: f64, to: &[I]) {
         let &[.., last] = to else { return };
         // The last element of `to` stores the mean until its own values are set at the end of the loop.

@@ -29,10 +29,10 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::VisitsTwice`] if the face contains a vertex twice (this vertex would be joined to m twice),
-    /// and [`EditError::BadNumber`] if the mean of the corners is not finite. Returns [`EditError::NoSuchFace`] if `f`
-    /// does not exist, and [`EditError::Full`] if there are not enough ids for the new elements. After an error, the
-    /// mesh is unchanged.
+    /// Returns [`EditError::VisitsTwice`] if the face contains a vertex twice, because this vertex would be joined to m
+    /// twice. Returns [`EditError::BadNumber`] if the mean of the corners is not finite. Returns
+    /// [`EditError::NoSuchFace`] if `f` does not exist, and [`EditError::Full`] if there are not enough ids for the new
+    /// elements. After an error, the mesh is unchanged.
     ///
     /// # Examples
     ///

@@ -29,9 +29,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::OutsideEdge`] if `t` is not strictly between 0 and 1, [`EditError::NoSuchEdge`] if `e` does
-    /// not exist, and [`EditError::Full`] if there are not enough ids for the new elements. After an error, the mesh is
-    /// unchanged.
+    /// Returns [`EditError::OutsideEdge`] if `t` is not strictly between 0 and 1. Returns [`EditError::NoSuchEdge`] if
+    /// `e` does not exist, and [`EditError::Full`] if there are not enough ids for the new elements. After an error,
+    /// the mesh is unchanged.
     ///
     /// # Examples
     ///

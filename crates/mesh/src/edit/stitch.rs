@@ -38,9 +38,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if `h` is `g`, and
-    /// [`EditError::NoSuchHalfEdge`] if `h` or `g` does not exist. Returns [`EditError::SameFace`] if the same face is
-    /// beside both edges of a pair that would be stitched. For two vertices that would be merged, returns
+    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, and [`EditError::EdgeListedTwice`] if `h` is `g`.
+    /// Returns [`EditError::NoSuchHalfEdge`] if `h` or `g` does not exist. Returns [`EditError::SameFace`] if the same
+    /// face is beside both edges of a pair that would be stitched. For two vertices that would be merged, returns
     /// [`EditError::SelfLoop`] if they share an edge, and [`EditError::VisitsTwice`] if they share a face. Returns
     /// [`EditError::DuplicateEdge`] if both of these vertices are joined to a third vertex by edges that would not be
     /// stitched. After an error, the mesh is unchanged.

@@ -24,8 +24,8 @@ pub(super) enum Cut {
 }
 
 impl Cut {
-    /// Returns three numbers: the number of new vertices inside the face, the number of new edges inside the face, and
-    /// the number of parts of the face.
+    /// Returns three numbers: how many new vertices lie inside the face, how many new edges lie inside it, and how many
+    /// parts it has.
     pub(super) const fn counts(self) -> [u32; 3] {
         match self {
             Self::Whole | Self::Hanging => [0, 0, 1],

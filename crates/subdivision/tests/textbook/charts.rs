@@ -2,8 +2,8 @@
 //!
 //! If several corners at a vertex have equal texture coordinates, they share one value. The rule for a value is decided
 //! on each level, from the sharpness on that level. OpenSubdiv decides only once which of two values depends on the
-//! other. The results differ only if the sharpness on one side of a vertex falls to 0 on an earlier level than the
-//! sharpness on the other side.
+//! other. The results differ only if, on one side of a vertex, the sharpness falls to 0 on an earlier level than on the
+//! other side.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -123,8 +123,9 @@ fn doo_sabin_of_a_cube() {
 
 #[test]
 fn butterfly_of_a_tetrahedron() {
-    // Both ends of the edge have three neighbors, so the new vertex is the mean of two sums: 3/4 a + 5/12 b - 1/12 (c +
-    // d), and the same sum with a and b swapped. Because a + b + c + d = 0, this mean is (7/12 + 1/12) (a + b).
+    // Both ends of the edge have three neighbors, so the new vertex is the mean of two sums. The first sum is 3/4 a +
+    // 5/12 b - 1/12 (c + d); the second sum has a and b swapped. Because a + b + c + d = 0, this mean is (7/12 + 1/12)
+    // (a + b).
     let fine = one_level(&tetrahedron(), Scheme::Butterfly);
     assert_has(&fine, [4.0 / 3.0, 0.0, 0.0]);
     assert_has(&fine, [1.0, 1.0, 1.0]);

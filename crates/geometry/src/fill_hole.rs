@@ -14,9 +14,8 @@ use std::collections::BinaryHeap;
 
 use mesh::{DVec3, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
-/// The maximum number of edges of a hole for which the triangulation with the smallest cost is computed. The
-/// computation takes time proportional to the third power of the number of edges: about a tenth of a second for 500
-/// edges.
+/// If a hole has at most this number of edges, the triangulation with the smallest cost is computed. The time for this
+/// computation is proportional to the third power of the number of edges: about a tenth of a second for 500 edges.
 const MAX_EXACT_EDGES: usize = 500;
 
 /// The largest value of the shape term, as a fraction of the mean squared edge length of the hole. The cost of a
@@ -187,7 +186,7 @@ impl<'m> Hole<'m> {
         let key = |p: usize, ear: usize, q: usize| {
             let (a, b, c) = (self.points[p], self.points[ear], self.points[q]);
             let is_inward = (b - a).cross(c - b).dot(normal) > 0.0;
-            // The heap compares the bits of the numbers. Read as integers, the bits of non-negative `f64` numbers have
+            // The heap compares the bits of `f64` numbers. For non-negative numbers, the bits (read as an integer) have
             // the same order as the numbers.
             (!is_inward, a.distance_squared(c).to_bits())
         };

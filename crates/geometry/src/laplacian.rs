@@ -20,8 +20,8 @@ use progress::{Cancelled, Meter, Progress};
 use crate::sparse::SymmetricMatrix;
 use crate::triangulate::Cutter;
 
-/// A polygon with 4 corners up to this number of corners is divided into triangles around a virtual vertex in its
-/// middle. A polygon with more corners is cut into triangles along diagonals.
+/// A polygon with at least 4 corners and at most this number of corners is divided into triangles around a virtual
+/// vertex in its middle. A polygon with more corners is cut into triangles along diagonals.
 const MAX_CORNERS: usize = 16;
 /// In every triangle, the sum of any two sides must exceed the third side by at least this fraction of the mean edge
 /// length. If one triangle fails this test, all edges of all triangles are lengthened by the same length.

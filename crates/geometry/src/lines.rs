@@ -11,8 +11,8 @@ pub(crate) enum Kind {
     /// The vertex is on one line. In simplification, a vertex on a line moves only when it merges with a neighbor on
     /// the line. In remeshing, a vertex on a line moves along the line.
     Line,
-    /// The vertex does not move. The vertex is pinned, is the end of a line or a meeting point of lines, or lies on a
-    /// line between two edges with different attributes.
+    /// The vertex does not move. The vertex is pinned, is the end of a line or a meeting point of lines, or joins two
+    /// edges of a line that have different attributes.
     Fixed,
 }
 

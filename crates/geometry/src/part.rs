@@ -60,16 +60,16 @@ pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
     parts(mesh, &face_components(mesh))
 }
 
-/// Splits the mesh into separate meshes: one part for each different value in `part_of_face`, which has one value for
-/// each face index. Parts are in ascending order of these values. Faces with the value `usize::MAX` and isolated
-/// vertices are left out.
+/// Splits the mesh into separate meshes. `part_of_face` has one value for each face index; faces with the same value
+/// form one part. Parts are in ascending order of these values. Faces with the value `usize::MAX` and isolated vertices
+/// are left out.
 ///
 /// Elements keep their order and their values. An edge between two parts is copied to both parts. A fan is a set of
 /// faces around a vertex that are connected by edges at this vertex. If the faces of a part form several fans around a
 /// vertex, the fan whose boundary half-edge has the lowest index keeps the vertex. Each of the other fans gets a copy
 /// of the vertex. The copies are numbered after all other vertices. A part with a new boundary loses the attribute
-/// columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense: their ids have no gaps. Apart from sorting the
-/// faces, the time is linear in the size of the mesh, for any number of parts.
+/// columns whose rule is [`Rule::Drop`](mesh::Rule::Drop). The parts are dense: their ids have no gaps. Apart from
+/// sorting the faces, the time is linear in the size of the mesh, for any number of parts.
 ///
 /// # Panics
 ///

@@ -9,16 +9,16 @@ use std::cmp::Ordering;
 
 use mesh::{DVec2, DVec3};
 
-/// Returns the side of the line from `a` to `b` on which the point `c` lies: `Greater` on the left, `Less` on the
-/// right, `Equal` on the line. The result is the sign of the signed area of the triangle `a`, `b`, `c`.
+/// Returns on which side of the line from `a` to `b` the point `c` lies: `Greater` on the left, `Less` on the right,
+/// `Equal` on the line. The result is the sign of the signed area of the triangle `a`, `b`, `c`.
 pub fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Ordering {
     let coord = |p: DVec2| robust::Coord { x: p.x, y: p.y };
     sign(robust::orient2d(coord(a), coord(b), coord(c)))
 }
 
-/// Returns the side of the plane through `a`, `b` and `c` on which the point `d` lies: `Greater` on the side of the
-/// normal (b − a) × (c − a), `Less` on the other side, `Equal` on the plane. The result is the sign of the signed
-/// volume of the tetrahedron with these four corners.
+/// Returns on which side of the plane through `a`, `b` and `c` the point `d` lies: `Greater` on the side of the normal
+/// (b − a) × (c − a), `Less` on the other side, `Equal` on the plane. The result is the sign of the signed volume of
+/// the tetrahedron with these four corners.
 pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Ordering {
     let coord = |p: DVec3| robust::Coord3D {
         x: p.x,

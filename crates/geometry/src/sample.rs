@@ -47,8 +47,8 @@ pub fn samples(
     if candidates.is_empty() || count == 0 {
         return Ok(Vec::new());
     }
-    // The radius that `count` equal disks have if they are packed as densely as possible into a flat region of this
-    // area.
+    // Suppose that a flat region with the area of the surface is packed as densely as possible with `count` equal
+    // disks. This is the radius of these disks.
     let radius = (area / (2.0 * 3.0_f64.sqrt() * count as f64)).sqrt();
     // Two points that are closer than `least` are treated as if their distance were `least`. As a result, the points
     // are spread more evenly.
@@ -77,8 +77,8 @@ pub fn samples(
         let Some((bits, std::cmp::Reverse(i))) = heap.pop() else {
             break;
         };
-        // If the weight of a candidate has changed since this queue entry was made, the entry is skipped: the queue has
-        // a newer entry for the candidate.
+        // An entry of the queue is out of date if the weight of its candidate has changed since the entry was made.
+        // Such an entry is skipped: the queue has a newer entry for the candidate.
         if !is_kept[i] || bits != f64::to_bits(crowding[i]) {
             continue;
         }
@@ -107,8 +107,8 @@ pub fn samples(
 }
 
 /// Returns the key by which the heap sorts the candidates. The candidate with the largest weight is removed first.
-/// Among candidates with the same weight, the one with the lowest index is removed first. Read as integers, the bits of
-/// non-negative weights have the same order as the weights.
+/// Among candidates with the same weight, the one with the lowest index is removed first. Weights are not negative, so
+/// their bits (read as integers) have the same order as the weights.
 fn entry(weight: f64, i: usize) -> (u64, std::cmp::Reverse<usize>) {
     (weight.to_bits(), std::cmp::Reverse(i))
 }

@@ -107,11 +107,11 @@ impl Cut {
 
 /// Triangulates faces, one after another, and uses the same buffers for all of them.
 ///
-/// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference of the
-/// squared lengths at most 1e-12), the diagonal that ends at the vertex with the lowest id is used. A diagonal is bad
-/// if one of its two triangles has zero area or is flipped, as seen along the face normal. If only one diagonal is bad,
-/// the other diagonal is used. A quadrilateral with a reflex corner is therefore cut at that corner. If both diagonals
-/// are bad, the quadrilateral is cut as if both were good.
+/// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long, the diagonal that ends at the
+/// vertex with the lowest id is used. Diagonals count as equally long if the relative difference of their squared
+/// lengths is at most 1e-12. A diagonal is bad if one of its two triangles has zero area or is flipped, as seen along
+/// the face normal. If only one diagonal is bad, the other diagonal is used. A quadrilateral with a reflex corner is
+/// therefore cut at that corner. If both diagonals are bad, the quadrilateral is cut as if both were good.
 ///
 /// A face with more than four corners is projected along its normal and cut by ear clipping (Held, "FIST: Fast
 /// Industrial-Strength Triangulation of Polygons", 2001, as implemented by the crate `earcut`). The time of ear

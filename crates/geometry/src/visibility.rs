@@ -13,22 +13,22 @@ use crate::surface_index::SurfaceIndex;
 /// Rays start at a distance from the surface: this number times the diagonal of the bounding box.
 const OFFSET: f64 = 1e-7;
 /// A ray that measures the thickness at a vertex starts on a face, near the vertex. Let l be the length of the shorter
-/// one of the two edges of the face that meet at the vertex. The ray starts at a distance of at most 2 l times this
-/// number from the vertex.
+/// one of the two edges of the face that meet at the vertex. The distance between the vertex and the start of the ray
+/// is at most 2 l times this number.
 const INWARD: f64 = 1e-3;
 /// The number of vertices in a block. One thread computes the values of all vertices of a block.
 const BLOCK: usize = 256;
 
 /// Returns the thickness of the solid at each vertex, in scene units. Entry i belongs to the vertex with the index i.
-/// For each face around the vertex, a ray starts on the face near the vertex and runs inward at a right angle to the
-/// face until it leaves the solid. The thickness at a vertex is the length of the shortest ray. The thickness is
+/// For each face around the vertex, a ray starts on the face, near the vertex. The ray runs inward, at a right angle to
+/// the face, until it leaves the solid. The thickness at a vertex is the length of the shortest ray. The thickness is
 /// infinite if no ray meets the surface again, for example on a flat sheet. It is also infinite if all faces around the
 /// vertex have zero area.
 ///
 /// For a plate, the thickness at every vertex is the distance between the two sides of the plate, even at its edges and
-/// corners. Where closed parts of the surface overlap, a ray does not end at a point where it enters another part; it
-/// ends where it leaves a part. Walls thinner than 1e-7 times the diagonal of the bounding box are not found. The mesh
-/// must be [dense](mesh::Mesh::is_dense).
+/// corners. Closed parts of the surface can overlap. A ray does not end where it enters another part; it ends where it
+/// leaves a part. Walls thinner than 1e-7 times the diagonal of the bounding box are not found. The mesh must be
+/// [dense](mesh::Mesh::is_dense).
 ///
 /// # Errors
 ///

@@ -52,8 +52,8 @@ pub struct Beveled {
 /// edges have a symmetry, the result has this symmetry too. An edge that is not beveled is shortened if it ends at a
 /// vertex of a beveled edge. A shortened edge that shares a face corner with a beveled edge is cut at the point whose
 /// distance from the beveled edge is `width`. Any other edge at an end of a beveled edge is cut at the distance `width`
-/// from that end. No cut is further than four times the width from the removed end of the edge that is cut. The bevel
-/// is therefore narrower next to an edge that forms a small angle with the beveled edge.
+/// from that end. A cut is at most four times the width away from the removed end of the edge. The bevel is therefore
+/// narrower next to an edge that forms a small angle with the beveled edge.
 ///
 /// The vertices at the ends of beveled edges are removed. In the result, the remaining vertices come first, in their
 /// old order, followed by the new vertices. Faces keep their ids. The faces that replace edges come after the old

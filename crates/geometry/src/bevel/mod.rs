@@ -1,5 +1,5 @@
-//! Bevels a set of edges at once. Also computes where to cut an edge that is shortened at both ends, by one bevel after
-//! another.
+//! Bevels a set of edges at once. If an earlier bevel has shortened an edge at one end, the module also computes where
+//! the next bevel cuts the edge at the other end.
 
 mod edges;
 mod values;

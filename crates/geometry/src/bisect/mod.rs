@@ -66,7 +66,8 @@ pub struct Bisection {
 /// face gets a separate edge between the same two crossing points.
 ///
 /// A face can lie in the plane. If the normal of this face points to the back of the plane, the face counts as a face
-/// in front of the plane, because it bounds a solid there. Otherwise, the face counts as a face behind the plane.
+/// in front of the plane, because the solid that it bounds is in front of the plane. Otherwise, the face counts as a
+/// face behind the plane.
 ///
 /// # Errors
 ///

@@ -35,7 +35,7 @@ fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     for e in mesh.edges() {
         let on_plane = mesh.edge_vertices(e).map(|v| height(v).abs() <= near);
         assert_eq!(on_plane == [true; 2], cut.edges.binary_search(&e).is_ok());
-        // An edge can be very short only if one of its ends is on the plane.
+        // Every very short edge has an end on the plane.
         assert!(mesh.length(e.half_edges()[0]) > 0.1 * near || on_plane != [false; 2]);
     }
     (mesh, cut)

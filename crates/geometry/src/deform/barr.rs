@@ -6,8 +6,8 @@ use crate::sin_cos_degrees;
 
 /// The coordinate system of a deformation: an origin and three orthogonal unit vectors, which form a right-handed
 /// system. The third vector is the axis. The height of a point is its coordinate along the axis. The amount of the
-/// deformation changes only between the heights `from` and `to`. Points below the height `from` or above the height
-/// `to` move rigidly or, for [`Taper`], are scaled by a constant factor.
+/// deformation changes only between the heights `from` and `to`. Points below the height `from` do not move. Points
+/// above the height `to` move together as a rigid body; for [`Taper`], they are scaled by a constant factor instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// The origin.

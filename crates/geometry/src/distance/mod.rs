@@ -2,8 +2,8 @@
 //!
 //! The Hausdorff distance is the largest distance from a point of one surface to the other surface. The largest
 //! distance can be at a point inside a face: for example, a spike of the other surface can end over the middle of a
-//! face. Therefore triangles are cut into pieces. A tolerance is added to the largest distance found so far. The
-//! cutting stops when no point of any piece can be further from the other surface than this sum:
+//! face. Therefore triangles are cut into pieces. Let l be the largest distance found so far, plus a tolerance. The
+//! cutting stops when no point of any piece can be further from the other surface than l:
 //!
 //! ```text
 //!     c              c
@@ -117,13 +117,14 @@ impl Distance {
         }))
     }
 
-    /// Whether the direction from the first surface to the second has the larger value of
-    /// [`largest`](OneSided::largest). Also true if both directions have equal values.
+    /// Whether the [`largest`](OneSided::largest) distance from the first surface to the second is at least as large as
+    /// the largest distance in the opposite direction.
     pub fn is_worst_forth(&self) -> bool {
         self.forth.largest >= self.back.largest
     }
 
-    /// Returns the distances in the direction with the larger value of [`largest`](OneSided::largest).
+    /// Returns the distances in one of the two directions: the one with the larger [`largest`](OneSided::largest)
+    /// distance.
     pub fn worst(&self) -> &OneSided {
         if self.is_worst_forth() {
             &self.forth
@@ -132,8 +133,8 @@ impl Distance {
         }
     }
 
-    /// Returns the largest distance found in both directions. The Hausdorff distance is between this value and
-    /// [`at_most`](Self::at_most).
+    /// Returns the largest distance that was found in either of the two directions. The Hausdorff distance is between
+    /// this value and [`at_most`](Self::at_most).
     pub fn largest(&self) -> f64 {
         self.worst().largest
     }
@@ -178,8 +179,8 @@ struct Block {
     /// Pieces (triangles) whose upper bounds exceed a limit: the largest distance measured at a vertex, plus the
     /// tolerance. Only these pieces can be cut later.
     pieces: Vec<Piece>,
-    /// An upper bound of the distances to the other surface from all points of the block that are in none of the
-    /// `pieces`.
+    /// An upper bound of the distances from some points of the block to the other surface: from all points that are in
+    /// none of the `pieces`.
     ceiling: f64,
     farthest: Option<Farthest>,
     /// The sum of the areas of the triangles.
@@ -330,8 +331,9 @@ impl Block {
         for i in 0..n {
             ask()?;
             for j in 0..n - i {
-                // The large triangle is divided into cells. Cell (i, j) has a small triangle with the orientation of
-                // the large triangle. Each cell except the last one of a row also has an inverted small triangle.
+                // Parallels to the sides divide the large triangle into small triangles. Small triangle (i, j) has the
+                // orientation of the large triangle. Beside it is an inverted small triangle, except at the end of a
+                // row.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
                 for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);

@@ -129,9 +129,9 @@ impl Piece {
         self.corners.iter().map(distance).fold(0.0, f64::max)
     }
 
-    /// Whether cutting the piece can lower its upper bound. Returns false if two conditions hold: the distance at some
-    /// corner is inexact, because a search stopped early; and the upper bound is at most `tolerance` above the largest
-    /// distance at a corner.
+    /// Whether cutting the piece can lower its upper bound. The distance at a corner can be inexact, because the search
+    /// stopped early. In this case, returns false if the upper bound is at most `tolerance` above the largest distance
+    /// at a corner.
     fn can_improve(&self, tolerance: f64) -> bool {
         let hits = self.corners.map(|s| s.hit);
         let far = hits.iter().fold(0.0, |d, hit| hit.distance.max(d));
@@ -197,8 +197,9 @@ impl Piece {
 /// Cuts pieces in two until the upper bound of every piece is at most `tolerance` above the distance of the furthest
 /// sample. Stops earlier if [`MAX_VISITS`] nodes were visited. A piece is not cut if the cut cannot lower its upper
 /// bound. If a round has too many pieces, the pieces with the smallest bounds are left uncut. Returns the furthest
-/// sample and an upper bound of the distances of all points of the surface, including the points of pieces that were
-/// not cut. `ceiling` is an upper bound of the distances of the points that are in none of the `pieces`.
+/// sample, and an upper bound of the distances of all points of the surface. The bound is also valid for the points of
+/// pieces that were not cut. `ceiling` is an upper bound of the distances of the points that are in none of the
+/// `pieces`.
 pub(super) fn refine(
     mut pieces: Vec<Piece>,
     mut farthest: Farthest,

@@ -29,8 +29,8 @@ use intrinsic::{Intrinsic, area, cotangent, scaled_points};
 const LEAST_HEAT: f64 = 1e-280;
 
 /// Returns the distance along the surface from each vertex to the nearest source, in scene units. Entry i belongs to
-/// the vertex with the index i. Entry i of `is_source` tells whether this vertex is a source. The distance is infinite
-/// for vertices that no path of edges connects to a source, and for dead (removed) vertices.
+/// the vertex with the index i. Entry i of `is_source` tells whether the vertex with the index i is a source. The
+/// distance is infinite for dead (removed) vertices, and for vertices that are not connected to any source by edges.
 ///
 /// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. If a path of edges
 /// connects a vertex to a source, the distance of the vertex is finite for any finite positions, even if triangles are

@@ -15,7 +15,7 @@ fn noise(i: usize) -> f64 {
     (mixed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
-/// Returns a flat grid of quadrilaterals or triangles with moved inner vertices.
+/// Returns a flat grid of quadrilaterals or triangles, whose inner vertices are displaced.
 fn uneven_grid(n: u32, triangles: bool) -> Mesh {
     let mut mesh = shapes::grid(n, n);
     if triangles {

@@ -51,8 +51,8 @@ pub enum MergeError {
 /// Merges vertices that are at most `distance` apart. Also merges vertices that are further apart, if a chain of
 /// vertices connects them in steps of at most `distance`.
 ///
-/// The choice of the vertices that merge does not depend on the order of the vertices. The result does not depend on
-/// the number of threads. A distance of 0 merges only vertices with equal positions.
+/// Two vertices merge or stay separate regardless of the order of the vertices in the mesh. The result does not depend
+/// on the number of threads. A distance of 0 merges only vertices with equal positions.
 ///
 /// [`merge_clusters`] describes what happens to vertices, edges, faces and attributes. If no two vertices
 /// merge, the mesh is unchanged.
@@ -101,7 +101,7 @@ pub fn merge_vertices(
 /// The merged vertex has the position and the values of the vertex with the lowest index in the cluster. The other
 /// vertices of the cluster are removed. Ids are renumbered without gaps. Edges between the same two vertices become one
 /// edge, which has the values of the edge with the lowest id. Faces keep their order and values. Corners keep their
-/// values, so that seams are preserved. Attribute columns with [`Rule::Drop`](mesh::Rule::Drop) are removed.
+/// values, so that seams are preserved. Attribute columns whose rule is [`Rule::Drop`](mesh::Rule::Drop) are removed.
 ///
 /// A face loses each corner that merges with the next corner of the face. A face is dropped if fewer than three of its
 /// corners are left, or if it would contain a vertex twice. After the merge, connected faces can have opposite

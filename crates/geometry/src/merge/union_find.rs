@@ -84,8 +84,8 @@ mod tests {
             .build()
             .unwrap();
         let sets = UnionFind::new(60_000);
-        // Joins of numbers that differ by 6 or 10 connect all even numbers to each other, and all odd numbers to each
-        // other.
+        // Each number is joined with the numbers that differ from it by 6 or 10. As a result, all even numbers are in
+        // one set, and all odd numbers are in another set.
         pool.install(|| {
             (0..59_990_u32).into_par_iter().for_each(|v| {
                 sets.join(v, v + 10);

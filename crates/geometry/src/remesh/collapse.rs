@@ -26,8 +26,8 @@ const TIP: f64 = 0.15;
 struct Merged {
     edges: [EdgeId; 2],
     apex: VertexId,
-    /// The line that contains the merged edge, and whether the line leads away from the apex on this edge. `None` if no
-    /// line contains the merged edge.
+    /// The line that contains the merged edge, and whether the line runs along this edge away from the apex. `None` if
+    /// no line contains the merged edge.
     track: Option<Track>,
 }
 

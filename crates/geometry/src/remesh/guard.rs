@@ -28,10 +28,10 @@ const SOFT: f64 = 0.1;
 const TOLERANCE: f64 = 0.01;
 
 impl Work<'_> {
-    /// Whether a step that replaces triangles could move the surface too far: further than [`SHARE`] times the error
-    /// limit, or further than [`SOFT`] times the target length. `new` lists the new triangles, each with an existing
-    /// face of the same chart (a region between lines). `gone` lists points of the old triangles; their distances from
-    /// the new triangles are tested.
+    /// Whether a step that replaces triangles could move the surface too far. The limits are [`SHARE`] times the error
+    /// limit, and [`SOFT`] times the target length. `new` lists the new triangles, each with an existing face of the
+    /// same chart (a region between lines). `gone` lists points of the old triangles; their distances from the new
+    /// triangles are tested.
     pub(super) fn is_far(&self, new: &[(FaceId, [DVec3; 3])], gone: &[DVec3]) -> bool {
         let sizes = new.iter().flat_map(|&(f, _)| self.mesh.face_vertices(f));
         let size = sizes.fold(f64::INFINITY, |size, v| size.min(self.sizes[v.index()]));

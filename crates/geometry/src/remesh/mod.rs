@@ -3,9 +3,9 @@
 //! Remeshing repeats a pass of four steps: split long edges, collapse short edges, flip edges so that most vertices
 //! have six edges, and move vertices along the surface. Source: Botsch, Kobbelt, "A Remeshing Approach to
 //! Multiresolution Modeling", 2004. Each movement of a vertex ends on the original surface, at a point of the line or
-//! chart (a region between lines) to which the vertex belongs. Only a vertex that a split or a collapse has placed can
-//! be off the original surface, and only until its first movement. If all movements of this vertex are refused, the
-//! vertex stays off the surface.
+//! chart (a region between lines) to which the vertex belongs. A split or a collapse can place a vertex off the
+//! original surface. The first movement of this vertex ends on the surface again. If all movements of this vertex are
+//! refused, the vertex stays off the surface.
 //!
 //! ```text
 //!     +---+-----------+            +-----+-----+
@@ -212,7 +212,7 @@ pub enum RemeshError {
 /// These vertices keep their exact positions:
 ///
 /// - the ends and meeting points of lines, and the corners of lines, where a line turns by more than 40°;
-/// - vertices on a line at which the attributes of the edges of the line change;
+/// - vertices that join two edges of a line with different attributes;
 /// - pinned vertices and vertices with sharpness;
 /// - vertices with a tag, with two exceptions: a tagged vertex can move if all corners of an adjacent triangle also
 ///   have the tag, or if the vertex is on a line and both of its neighbors on the line also have the tag.
@@ -221,7 +221,7 @@ pub enum RemeshError {
 /// other side of a line. Vertex and corner attributes are interpolated at this location. A new vertex has a tag if all
 /// original vertices around its location have the tag. The whole-number attributes of a new vertex are copied from the
 /// nearest of these original vertices. A new face gets the values of the original face at its center. A new edge on a
-/// line gets the values of the original edge of the line that contains the midpoint of the new edge. Any other new edge
+/// line gets the values of one original edge of this line: the edge at the midpoint of the new edge. Any other new edge
 /// gets its values from the original triangle at the midpoint of the new edge. The values are copied from one edge of
 /// this triangle: among the edges that are not on a line, the edge nearest to the midpoint. If all edges of the
 /// original triangle are on lines, the values of the new edge are zero.

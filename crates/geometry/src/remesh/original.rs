@@ -303,8 +303,8 @@ impl<'a> Original<'a> {
 fn kinds_to_places(mesh: &Mesh, kinds: &[Kind]) -> Vec<Place> {
     let place = |v: VertexId| match kinds[v.index()] {
         Kind::Inside if mesh.vertex_half_edge(v).is_some() => Place::Inside(0),
-        // Here, a vertex inside a chain (a line between two corners) also gets the place `Corner`. When the chains are
-        // built, this place is replaced by `Line`.
+        // Until the chains (lines between two corners) are built, all vertices on lines have the place `Corner`. For
+        // the vertices between the ends of a chain, this place is later replaced by `Line`.
         _ => Place::Corner(v),
     };
     mesh.vertices().map(place).collect()
@@ -334,8 +334,8 @@ fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) 
             mesh.position(v) - mesh.position(a),
             mesh.position(b) - mesh.position(v),
         );
-        // An edge of length zero has no direction. At the end of an edge of length zero, the comparison is false, and
-        // the vertex counts as a corner.
+        // An edge of length zero has no direction. At both ends of such an edge, the comparison is false, so these
+        // vertices count as corners.
         let is_straight = x.dot(y) > STRAIGHT * (x.length_squared() * y.length_squared()).sqrt();
         !is_straight
     };

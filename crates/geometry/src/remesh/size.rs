@@ -181,8 +181,8 @@ fn line_curvature(original: &Original, v: VertexId) -> f64 {
 fn grade(original: &Original, sizes: &mut [f64]) {
     let mesh = &original.mesh;
     debug_assert_eq!(sizes.len(), mesh.domain_len(Domain::Vertex));
-    // The heap compares the bits of the numbers. Read as integers, the bits of non-negative `f64` numbers have the same
-    // order as the numbers.
+    // The heap compares the bits of `f64` numbers. For non-negative numbers, the bits (read as an integer) have the
+    // same order as the numbers.
     let mut waiting: BinaryHeap<Reverse<(u64, usize)>> = sizes
         .iter()
         .enumerate()

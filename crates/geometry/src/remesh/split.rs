@@ -10,8 +10,8 @@ use super::work::{Work, cross, is_turned};
 use super::{Refused, RemeshError, WHAT};
 
 impl Work<'_> {
-    /// Splits edges that are too long, the longest first. Each edge is split at its midpoint. Stops when none of these
-    /// edges can be split, or when the mesh has `enough` faces. Returns the number of splits.
+    /// Splits edges that are too long, the longest first. Each edge is split at its midpoint. Stops when no edge that
+    /// is too long can be split, or when the mesh has `enough` faces. Returns the number of splits.
     pub(super) fn split_long(
         &mut self,
         max_faces: usize,

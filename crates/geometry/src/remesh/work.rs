@@ -150,9 +150,9 @@ pub(super) fn is_turned(before: DVec3, after: DVec3) -> bool {
 }
 
 /// The cosine of 20°. If the angle between the normals of two triangles is larger than 20°, the surface counts as bent
-/// between them. Where the surface is bent, the distance between new triangles and the original surface is checked. On
-/// a model of a rocker arm, the largest distance between the original and the result is 0.21 % of the diagonal of the
-/// bounding box with the limit 20°. With the limit 37°, the largest distance is 0.31 %.
+/// between them. Where the surface is bent, the distance between new triangles and the original surface is checked.
+/// With the limit 20°, a remeshed rocker arm is at most 0.21 % of the diagonal of its bounding box away from the
+/// original. With the limit 37°, this distance is 0.31 %.
 const BENT: f64 = 0.94;
 
 /// Whether the surface is bent between two triangles; see [`BENT`]. The arguments are the [`cross`] products of the

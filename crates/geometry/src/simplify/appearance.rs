@@ -1,7 +1,7 @@
 //! How attributes contribute to the cost of an edge collapse in simplification.
 //!
 //! Texture coordinates, normals, colors and other numbers are linear functions on each original triangle. A vertex
-//! represents some original triangles. If the vertex is placed at the point p and gets the value s, the error is the
+//! represents some original triangles. Let the vertex be placed at the point p and get the value s. The error is the
 //! mean squared difference between s and the values of these linear functions at p. For each point p, one value s has
 //! the least error. This least error is a quadratic function of p, a quadric. Source: Hoppe, "New Quadric Metric for
 //! Simplifying Meshes with Appearance Attributes", 1999.
@@ -140,8 +140,8 @@ impl Appearance {
         sum
     }
 
-    /// Returns the integral of the squared error of all attributes if the vertex is placed at `point` and has the
-    /// values with the least error.
+    /// Returns the integral of the squared error of all attributes for a vertex at `point` that has the values with the
+    /// least error.
     pub(super) fn least_error(&self, pair: Pair, point: DVec3) -> f64 {
         let mut error = self.placing(pair).at(point);
         if self.n_placing < self.n {
@@ -151,8 +151,8 @@ impl Appearance {
         error
     }
 
-    /// Returns the integral of the squared error of all attributes if the vertex is placed at `point` and has values
-    /// that are interpolated between the two wedges. `t` is the weight of the second wedge, from 0 to 1.
+    /// Returns the integral of the squared error of all attributes for a vertex at `point` whose values are
+    /// interpolated between the two wedges. `t` is the weight of the second wedge, from 0 to 1.
     pub(super) fn error(&self, pair: Pair, point: DVec3, t: f64) -> f64 {
         let [a, b] = pair.map(|wedge| self.values_of(wedge));
         let area = self.area(pair);
@@ -321,7 +321,7 @@ mod tests {
     use mesh::UV;
     use proptest::prelude::*;
 
-    /// A wavy square with texture coordinates that are not linear, and the appearance of this square.
+    /// A wavy square with texture coordinates that are not linear, and the [`Appearance`] that stores them.
     fn taken() -> (Mesh, Appearance) {
         let mut mesh = waves();
         let at = |h| {

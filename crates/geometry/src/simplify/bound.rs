@@ -86,8 +86,8 @@ struct Patch {
     old: Vec<([DVec3; 3], f64)>,
     /// The triangles after the collapse. The first corner of each triangle is the new vertex.
     new: Vec<[DVec3; 3]>,
-    /// If the collapsed edge is a boundary edge: the position of the removed end, and the positions of the two ends of
-    /// the new boundary edge beside the removed end.
+    /// If the collapsed edge is a boundary edge: the position of the removed end, and the two ends of a new edge. The
+    /// new edge replaces the two boundary edges at the removed end.
     cut: Option<(DVec3, [DVec3; 2])>,
 }
 
@@ -127,8 +127,8 @@ impl Patch {
             return None;
         }
         // Seen along the projection, the points between the old and the new boundary are covered either only by the old
-        // triangles or only by the new triangles. The distance of a covered point from the triangles that do not cover
-        // it is at most the distance of the point from the boundary of these triangles.
+        // triangles or only by the new triangles. If only the old triangles cover a point, its distance from the new
+        // triangles is at most its distance from their boundary. The same is true with old and new exchanged.
         let beyond = self.cut.map_or(0.0, |(removed, [p, q])| {
             let largest = self
                 .old
@@ -155,10 +155,10 @@ fn n_turns(triangles: &[[DVec3; 3]]) -> usize {
     triangles.iter().filter(crosses).count()
 }
 
-/// Two triangles are projected to the xy plane, and z is their height. Returns the largest difference of their heights
-/// in the region that both cover. Returns `None` if there is no such region.
+/// Returns the largest difference in height (z) between two triangles, measured where one is directly above or below
+/// the other. Returns `None` if there is no such place.
 fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
-    // Clips the old triangle by the side lines of the new triangle. Each cut adds at most one corner.
+    // Clips the old triangle by the lines through the sides of the new triangle. Each cut adds at most one corner.
     let (mut cell, mut n) = ([DVec3::ZERO; 6], 3);
     cell[..3].copy_from_slice(old);
     for i in 0..3 {

@@ -59,8 +59,8 @@ impl Quadric {
         let solve = |p: DVec3| p.x * inverse[0] + p.y * inverse[1] + p.z * inverse[2];
         let lowest = -solve(sum.b);
         // The added quadric `weak` moves the lowest point of the sum a little away from the lowest point of this
-        // quadric. One Newton step for this quadric, with the matrix of the sum, moves the point back. The point stays
-        // moved only in directions in which this quadric hardly changes.
+        // quadric. One Newton step for this quadric, with the matrix of the sum, moves the point back. After this step,
+        // the point differs from the lowest point only in directions in which this quadric hardly changes.
         Some(lowest - solve(self.times(lowest) + self.b))
     }
 
@@ -95,8 +95,8 @@ impl Add for Quadric {
     }
 }
 
-/// The size of the part of the original surface that a vertex represents, and two integrals over this part. These
-/// numbers give the integral, over the part, of the squared distance from any point.
+/// The size of the part of the original surface that a vertex represents, and two integrals over this part. With these
+/// numbers, the squared distance from any given point can be integrated over the part.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
     pub(super) area: f64,
@@ -205,7 +205,7 @@ mod tests {
     fn a_weak_quadric_decides_only_between_equal_points() {
         let near = DVec3::new(3.0, 4.0, 5.0);
         let weak = Spread::at_point(near, 1.0).quadric(1e-6);
-        // The planes x = 1 and y = 2 have a common line, on which z is free.
+        // The planes x = 1 and y = 2 meet in a line, which is parallel to the z axis.
         let planes =
             Quadric::plane(DVec3::X, DVec3::X, 1.0) + Quadric::plane(DVec3::Y, 2.0 * DVec3::Y, 1.0);
         let lowest = planes.lowest(&weak).unwrap();

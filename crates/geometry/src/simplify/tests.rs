@@ -222,7 +222,7 @@ fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
     }
 }
 
-/// Returns the edges of a [`square`] on the line x = 0.5.
+/// Returns the edges of a [`square`] that lie on the line x = 0.5.
 pub(crate) fn middle(mesh: &Mesh) -> Vec<EdgeId> {
     let is_on_line = |&v: &VertexId| mesh.position(v).x == 0.5;
     let is_in_middle = |&e: &EdgeId| mesh.edge_vertices(e).iter().all(is_on_line);

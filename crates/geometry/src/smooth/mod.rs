@@ -121,8 +121,8 @@ pub struct Smoothing<'a> {
     pub is_free: &'a [bool],
     /// How boundary vertices move.
     pub boundary: Boundary,
-    /// Whether the volume of the mesh is preserved. If true, the mesh must be closed, and all free vertices are moved
-    /// by the same distance along their normals after smoothing.
+    /// Whether the volume of the mesh is preserved. If true, the mesh must be closed. After smoothing, all vertices
+    /// that are allowed to move are shifted by the same distance along their normals.
     pub keep_volume: bool,
 }
 
@@ -132,8 +132,8 @@ pub enum SmoothError {
     /// The volume cannot be preserved, because the volume of a mesh with a boundary is not defined.
     #[error("the volume can be preserved only if the mesh is closed, but the mesh has a boundary")]
     NotClosed,
-    /// To restore the volume, all free vertices are moved by the same distance along their normals. No distance was
-    /// found that restores the old volume.
+    /// To restore the volume, all vertices that are allowed to move are shifted by the same distance along their
+    /// normals. No distance was found that restores the old volume.
     #[error(
         "the volume was {}, and moving the free vertices along their normals gives {} at best; smooth less, or do \
          not keep the volume",

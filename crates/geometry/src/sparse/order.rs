@@ -1,8 +1,8 @@
 //! A fill-reducing ordering: approximate minimum degree.
 //!
 //! Source: Amestoy, Davis, Duff, "An Approximate Minimum Degree Ordering Algorithm", 1996. The graph of the remaining
-//! matrix is stored as a quotient graph: an eliminated vertex p becomes an element, which stands for the clique (all
-//! pairs) of the neighbors of p:
+//! matrix is stored as a quotient graph. In this graph, an eliminated vertex p becomes an element, which stands for the
+//! clique (all pairs) of the neighbors of p:
 //!
 //! ```text
 //!     a --- p --- b               a ..... b

@@ -40,7 +40,7 @@ impl Supernode {
         (self.columns.len() * self.rows.len()) as u64
     }
 
-    /// Returns about half the number of floating-point operations that the elimination of this supernode takes.
+    /// Returns the approximate number of floating-point operations that the elimination of this supernode takes.
     pub(super) fn work(&self) -> u64 {
         let (m, k) = (self.rows.len() as u64, self.columns.len() as u64);
         (0..k).map(|c| (m - c) * (m - c)).sum::<u64>() + m

@@ -27,7 +27,7 @@ const MANY_CORNERS: usize = 64;
 /// The number of triangles that are copied between two progress reports.
 const PART: usize = 1 << 18;
 
-/// While faces are divided into triangles, one progress report is made for this number of new triangles.
+/// The number of triangles that are made from faces between two progress reports.
 const REPORT: usize = 16_384;
 
 /// Appends the triangles of a face. A face with at most four corners is divided into a fan of triangles. A face with
@@ -39,7 +39,7 @@ const REPORT: usize = 16_384;
 ///
 /// # Errors
 ///
-/// Returns the error of `ask`, which is called many times for a face with many corners.
+/// Returns an error if `ask` returns an error. For a face with many corners, `ask` is called many times.
 pub(crate) fn triangulate(
     mesh: &Mesh,
     face: FaceId,

@@ -127,8 +127,8 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
     }
 }
 
-/// Returns, for each corner of `s`, the side of the plane of `t` on which it lies. Returns `None` if all corners of `s`
-/// are strictly on one side of this plane.
+/// Returns, for each corner of `s`, on which side of the plane of `t` the corner lies. Returns `None` if all corners of
+/// `s` are strictly on one side of this plane.
 fn sides_of_plane(s: &[DVec3; 3], t: &[DVec3; 3]) -> Option<[Ordering; 3]> {
     let sides = s.map(|p| orient3d(t[0], t[1], t[2], p));
     let all_on = |side| sides.iter().all(|s| *s == side);

@@ -202,7 +202,7 @@ impl SurfaceIndex {
     /// visited in order of their distances from `p`, because this order gives the best lower bound if the search stops
     /// early.
     fn nearly_nearest(&self, p: DVec3, mut best: Best) -> (Best, Option<f64>, u32) {
-        // The heap compares the bits of the numbers. Read as integers, the bits of non-negative `f64` numbers have the
+        // The heap compares the bits of `f64` numbers. For non-negative numbers, the bits (read as an integer) have the
         // same order as the numbers.
         let mut waiting = BinaryHeap::from([Reverse((0_u64, 0_usize))]);
         let mut visits = MAX_NODES;

@@ -28,9 +28,9 @@ impl SurfaceIndex {
         self.search(self, true, &keep, progress)
     }
 
-    /// Returns all pairs of a triangle of this index and a triangle of another index that satisfy two conditions: their
-    /// bounding boxes overlap or touch, and `keep` returns true. The pairs are in ascending order. Runs in parallel;
-    /// only the pairs that are kept take memory.
+    /// Returns pairs of triangles: the first is from this index, and the second is from `other`. A pair is returned if
+    /// the bounding boxes of its triangles overlap or touch, and `keep` returns true. The pairs are in ascending order.
+    /// Runs in parallel; only the pairs that are kept take memory.
     ///
     /// # Errors
     ///

@@ -224,8 +224,8 @@ impl Ray {
     }
 }
 
-/// Returns the side of the line from `a` to `b` on which the origin lies. If the origin lies on this line, returns the
-/// side on which the point (ε, ε²) lies, where ε is infinitely small. Returns `None` if `a` and `b` are equal.
+/// Returns on which side of the line from `a` to `b` the origin lies. If the origin lies on this line, returns the side
+/// of the point (ε, ε²) instead, where ε is positive and infinitely small. Returns `None` if `a` and `b` are equal.
 fn side_of_origin(a: DVec2, b: DVec2) -> Option<Ordering> {
     let side = orient2d(a, b, DVec2::ZERO);
     if side != Equal {

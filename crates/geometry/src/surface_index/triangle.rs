@@ -32,8 +32,9 @@ pub(crate) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
     on_first.distance(on_second)
 }
 
-/// Returns the point of a triangle that is nearest to `p`. The point is computed from the Voronoi region of the
-/// triangle that contains `p`. For a zero-area triangle, the result is the nearest point of its three sides.
+/// Returns the point of a triangle that is nearest to `p`. A triangle has Voronoi regions: of its corners, of its
+/// sides, and of its interior. The formula for the nearest point depends on the region in which `p` lies. For a
+/// zero-area triangle, the result is the nearest point of its three sides.
 ///
 /// Source: Ericson, "Real-Time Collision Detection", 2005, §5.1.5.
 pub fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {

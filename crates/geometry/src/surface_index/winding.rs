@@ -37,9 +37,9 @@ const FAR: f64 = 2.0;
 /// The number of nodes or points in a block. One thread processes all nodes or points of a block.
 const BLOCK: usize = 256;
 
-/// Integrals over the points p of the triangles of a node, for the Taylor series about the center c. Here n is the unit
-/// normal of a triangle, and x = p − c. Of the tensors M and T, only the symmetric parts are stored, with their
-/// components in the order below.
+/// Integrals over the triangles of a node, for the Taylor series about the center c. Here n is the unit normal of a
+/// triangle, and x = p − c for a point p of the triangle. Of the tensors M and T, only the symmetric parts are stored,
+/// with their components in the order below.
 ///
 /// ```text
 /// normal   N_i  = ∫ n_i dA
@@ -216,8 +216,8 @@ impl Moments {
     /// Returns the approximate solid angle of the triangles of a node, as seen from a point. `r` is the vector from
     /// this point to the center of the node.
     ///
-    /// The solid angle is ∫ n · f(p) dA with f(p) = p / |p|³, seen from the origin. With R = |r|, the terms of
-    /// the Taylor series of f are
+    /// The solid angle, as seen from the origin, is ∫ n · f(p) dA with f(p) = p / |p|³. With R = |r|, the terms of the
+    /// Taylor series of f are
     ///
     /// ```text
     /// N · r / R³

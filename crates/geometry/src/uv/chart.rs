@@ -193,7 +193,7 @@ pub(super) fn nearest(
     };
     let mut distance = vec![f64::INFINITY; faces.len()];
     let mut side = vec![0; faces.len()];
-    // The queue compares the bits of the numbers. Read as integers, the bits of non-negative `f64` numbers have the
+    // The queue compares the bits of `f64` numbers. For non-negative numbers, the bits (read as an integer) have the
     // same order as the numbers.
     let mut queue = BTreeSet::new();
     for &(seed, s) in seeds {

@@ -183,8 +183,7 @@ fn join(
     }
 }
 
-/// Whether the normals of all faces of a chart are close enough to the mean normal of the joined chart: the angle
-/// between each normal and the mean normal must be within the limit.
+/// Whether the smoothed normals of all faces of a chart are close enough to the mean normal of the joined chart.
 fn is_cone(chart: &Chart, joined: &Totals, smooth: &[DVec3], limits: Limits) -> bool {
     let axis = joined.normal.normalize_or_zero();
     let mut normals = chart.part.faces.iter().map(|&f| smooth[f as usize]);

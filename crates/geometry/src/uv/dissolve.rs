@@ -119,8 +119,7 @@ fn grow(
     Ok(sorted.collect())
 }
 
-/// Whether the normals of the given faces are close enough to their mean normal: the angle between each normal and the
-/// mean normal must be within the limit.
+/// Whether the smoothed normals of all given faces are close enough to the mean of these normals.
 fn is_cone(surface: &Surface, smooth: &[DVec3], faces: &[u32], limits: Limits) -> bool {
     let weighted = |f: &u32| smooth[*f as usize] * surface.areas[*f as usize];
     let axis = faces

@@ -257,7 +257,7 @@ impl Growth {
 
 /// Divides the solid faces, which are the faces with a nonzero area, into connected charts. Returns the index of the
 /// chart of each face, and the number of charts. The index is [`u32::MAX`] for faces with zero area. A region is added
-/// to a chart only if its normal is close enough to the current mean normal of the chart: the cosine of the angle
+/// to a chart only if its normal is close enough to the current mean normal of the chart. The cosine of the angle
 /// between the two normals must be at least `min_cosine`.
 pub(super) fn grow(
     surface: &Surface,

@@ -103,8 +103,9 @@ pub(super) fn aspect([a, b]: [DVec2; 2]) -> f64 {
     let (e, f, g) = (a.dot(a), a.dot(b), b.dot(b));
     let middle = f64::midpoint(e, g);
     let radius = (((e - g) * (e - g)) / 4.0 + f * f).sqrt();
-    // The product of both singular values is the absolute value of the determinant. Dividing the determinant by the
-    // larger value therefore gives the smaller value accurately, without a difference of nearly equal numbers.
+    // The product of both singular values is the absolute value of the determinant. The smaller value is therefore the
+    // determinant divided by the larger value. This formula is accurate, because it does not subtract nearly equal
+    // numbers.
     let long = (middle + radius).sqrt();
     let short = a.perp_dot(b).abs() / long;
     if short > 0.0 {

@@ -12,8 +12,8 @@ use crate::tangent::triangles;
 const MAX_BOXES: f64 = 16.0;
 
 /// Returns a rotation, as a complex number, that makes the bounding boxes of thin triangles small: it makes their long
-/// sides vertical. The product of this number and a point, also as a complex number, is the rotated point. Returns 1 if
-/// the bounding boxes are already small.
+/// sides vertical. To rotate a point, write it as a complex number and multiply it by the rotation. Returns 1 if the
+/// bounding boxes are already small.
 pub(super) fn upright(triangles: impl Iterator<Item = [DVec2; 3]>) -> DVec2 {
     let (mut boxes, mut areas, mut squares) = (0.0, 0.0, DVec2::ZERO);
     for [a, b, c] in triangles {

@@ -28,9 +28,10 @@ pub struct Packed {
     pub coverage: f64,
 }
 
-/// The largest number of charts that are nested: small charts can lie in the hollows of large charts. More charts are
-/// packed in rows, because the time for nesting grows faster than the number of charts. For 3,324 charts on a page of
-/// 4096 texels, rows are 15 times as fast as nesting, but cover only 61 % of the page instead of 66 %.
+/// The largest number of charts that are nested: small charts can lie in the hollows of large charts. If there are more
+/// charts, all charts are packed in rows, because the time for nesting grows faster than the number of charts. For
+/// 3,324 charts on a page of 4096 texels, rows are 15 times as fast as nesting, but cover only 61 % of the page instead
+/// of 66 %.
 const MAX_NESTED: usize = 256;
 
 /// A triangle whose area is at most this fraction of the area of its chart is ignored when the chart is packed.
@@ -41,8 +42,8 @@ const MIN_AREA: f64 = 1e-11;
 /// diagonal.
 const MIN_HEIGHT: f64 = 4e-6;
 
-/// A shape with more than this number of triangles is replaced by its convex hull if the area of the hull is not larger
-/// than the sum of the areas of the triangles.
+/// A shape has many triangles if it has more than this number. Such a shape is replaced by its convex hull, unless the
+/// area of the hull is larger than the sum of the areas of the triangles.
 const MAX_CONVEX: usize = 256;
 
 /// Two areas count as equal if their relative difference is at most this number.
@@ -77,8 +78,9 @@ struct Shape {
 
 /// Packs the charts of a dense mesh: moves, turns and scales them in the texture. Afterwards, no two charts overlap
 /// each other, and all charts have the same scale: their areas in the texture are proportional to their areas on the
-/// surface. Angles and ratios of lengths inside a chart are preserved, and mirrored charts remain mirrored. Up to 256
-/// charts can lie in the hollows and holes of each other. More charts are packed in rows, which is much faster.
+/// surface. Angles and ratios of lengths inside a chart are preserved, and mirrored charts remain mirrored. If there
+/// are at most 256 charts, small charts can lie in the hollows and holes of large charts. If there are more than 256
+/// charts, all of them are packed in rows, which is much faster.
 ///
 /// # Errors
 ///

@@ -15,15 +15,16 @@ use crate::lines::inverse_power_of_two;
 const TEXTURE: f64 = 0.5;
 
 /// The weight of normals: the difference of two unit normals, times this weight and the size of the mesh, counts as a
-/// distance. The weight is small, because normals follow from the surface. For example, if a model of a rocker arm is
-/// simplified with five times this weight, the mean distance between the original and the simplified surface doubles.
-/// For the same reason, normals do not affect the positions of vertices. If normals affected the positions, the largest
-/// distance for the rocker arm would be 3.9e-3 of the diagonal of the bounding box instead of 3.3e-3.
+/// distance. The weight is small, because the normals of a mesh depend mostly on the shape of the surface. For example,
+/// if a model of a rocker arm is simplified with five times this weight, the mean distance between the original and the
+/// simplified surface doubles. For the same reason, normals do not affect the positions of vertices. If normals
+/// affected the positions, the largest distance for the rocker arm would be 3.9e-3 of the diagonal of the bounding box
+/// instead of 3.3e-3.
 const NORMAL: f64 = 0.002;
 
 /// The weight of all attributes except texture coordinates and normals. The largest possible error of an attribute is
-/// the difference between its lowest and its highest value. This error counts as much as a distance; the distance is
-/// this number times the size of the mesh.
+/// the difference between its lowest and its highest value. This error counts as much as a distance of this number
+/// times the size of the mesh.
 const OTHER: f64 = 0.02;
 
 impl Appearance {

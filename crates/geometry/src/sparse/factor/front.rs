@@ -9,7 +9,7 @@ const TILE: usize = 4;
 /// The number of pivot columns in a block. Before a block is factored, its columns are updated in parallel, from the
 /// columns of all earlier blocks.
 const BLOCK: usize = 64;
-/// A front whose work, counted in multiplications, is less than this number is computed by one thread.
+/// If an update of columns takes fewer multiplications than about this number, one thread computes it.
 const PARALLEL_WORK: usize = 1 << 20;
 
 /// The matrix that the elimination of a supernode adds to the front of its parent.

@@ -40,9 +40,9 @@ fn is_in([a, b, c]: &[Int; 3], (at, d): Point) -> bool {
     dot(n, from(*a)) == 0 && inside(*a, *b) && inside(*b, *c) && inside(*c, *a)
 }
 
-/// Whether two triangles have a common point that is not on a common corner or side, in rational arithmetic. The set of
-/// common points is the convex hull of these points: corners of one triangle that lie in the other, points where a side
-/// meets the plane of the other triangle, and points where two sides meet.
+/// Tests with rational arithmetic whether two triangles have a common point that is not on a common corner or side. The
+/// set of common points is the convex hull of these points: corners of one triangle that lie in the other, points where
+/// a side meets the plane of the other triangle, and points where two sides meet.
 fn intersect(s: &[Int; 3], t: &[Int; 3]) -> bool {
     if normal(s) == [0; 3] || normal(t) == [0; 3] {
         return false;
@@ -96,8 +96,8 @@ fn triangles_on_a_small_lattice_intersect_as_in_rational_arithmetic() {
             [1.0, 1.0 / power_of_two(700), power_of_two(470), 0.1][(round / 12 % 4) as usize];
         let real = |t: [Int; 3]| t.map(|p| DVec3::from(p.map(|x| x as f64)) * scale);
         let (expected, found) = (intersect(&s, &t), triangles_intersect(&real(s), &real(t)));
-        // Multiples of 0.1 are rounded. Points on a common line are then no longer exactly on a line, so the exact
-        // results differ.
+        // Multiples of 0.1 are rounded. Rounding moves points off the lines on which they should lie, so the two
+        // results can differ.
         if scale != 0.1 {
             assert_eq!(expected, found, "{s:?} {t:?} {scale}");
         }

@@ -57,8 +57,8 @@ fn rays_meet_the_triangles_that_brute_force_finds() {
     }
 }
 
-/// Returns two numbers. The first is the number of times that the ray enters the solid, minus the number of times that
-/// it leaves the solid. The second is the number of all hits.
+/// Returns how often the ray enters the solid, minus how often the ray leaves the solid. Also returns the number of all
+/// hits.
 fn passages(index: &SurfaceIndex, origin: DVec3, direction: DVec3) -> (i64, usize) {
     let hits = index.ray_all(origin, direction);
     let inward = hits

@@ -63,9 +63,8 @@ pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>
     mesh.fill_hole_by_ears(h, &ears)
 }
 
-/// Returns the vertices to cut off, in order. Each vertex is given as an index into `rim`, the list of the half-edges
-/// around the hole: the vertex is the origin of the half-edge with this index. The two vertices that remain at the end
-/// are not returned.
+/// Returns the vertices to cut off, in order. `rim` lists the half-edges around the hole. A vertex is given by the
+/// index of the half-edge that starts at the vertex. The two vertices that remain at the end are not returned.
 fn ears(mesh: &Mesh, rim: &[HalfEdgeId]) -> Result<Vec<usize>, EditError> {
     let hole = Hole::of(mesh, rim);
     let ears = if rim.len() <= MAX_EXACT_EDGES {

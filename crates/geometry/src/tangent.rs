@@ -32,7 +32,7 @@ pub struct Tangents {
 /// has no corner normals, its vertex normals are used. Returns `None` if the mesh has no normals.
 ///
 /// The computation uses 32-bit floating-point numbers. Polygons are cut into the same triangles as in exported glTF
-/// files. Two corners share a tangent under three conditions: they have the same position, normal and texture
+/// files. Two corners share a tangent under three conditions. They have the same position, normal and texture
 /// coordinates; their faces are connected; and the texture is mirrored on both faces or on neither of them.
 pub fn tangents(mesh: &Mesh, uvs: &[DVec2]) -> Option<Tangents> {
     let normals = match (mesh.get(CORNER_NORMAL), mesh.get(VERTEX_NORMAL)) {

@@ -119,11 +119,11 @@ impl Cut {
 /// into monotone pieces instead (de Berg and others, "Computational Geometry: Algorithms and Applications", 2008,
 /// chapter 3). Then diagonals are flipped until the result is a constrained Delaunay triangulation.
 ///
-/// Some faces become a fan around their vertex with the lowest id: faces with more than ten million corners, and faces
-/// that can be cut neither by ear clipping nor into monotone pieces. A face cannot be cut if its area is zero or its
-/// sides cross. A face with more than 4096 corners also becomes a fan if some of its sides overlap. In a face with n
-/// corners, where n is more than 4096, at most 1024 n diagonals are flipped. If this limit is reached, some triangles
-/// are possibly not Delaunay triangles.
+/// Some faces become a fan around their vertex with the lowest id. These are faces with more than ten million corners,
+/// and faces that can be cut neither by ear clipping nor into monotone pieces. A face cannot be cut if its area is zero
+/// or its sides cross. A face with more than 4096 corners also becomes a fan if some of its sides overlap. In a face
+/// with n corners, where n is more than 4096, at most 1024 n diagonals are flipped. If this limit is reached, some
+/// triangles are possibly not Delaunay triangles.
 ///
 /// # Examples
 ///

@@ -46,8 +46,8 @@ pub struct Beveled {
 
 /// Replaces edges by faces of constant width.
 ///
-/// A beveled edge is replaced by a new face between two new edges; one new edge lies in each of the two faces of the
-/// beveled edge. Each new edge is at the distance `width`, in scene units, from the old edge. Edges that meet at a
+/// A beveled edge is replaced by a new face between two new edges. Each new edge lies in one of the two old faces at
+/// the beveled edge. Each new edge is at the distance `width`, in scene units, from the old edge. Edges that meet at a
 /// vertex are beveled together, so the result does not depend on their order. If both the mesh and the set of beveled
 /// edges have a symmetry, the result has this symmetry too. An edge that is not beveled is shortened if it ends at a
 /// vertex of a beveled edge. A shortened edge that shares a face corner with a beveled edge is cut at the point whose
@@ -254,9 +254,9 @@ impl<'m> Bevel<'m> {
         let sine = 2.0 * half_sine * half_cosine;
         let weight = |length: f64| {
             let weight = self.width / (sine * length);
-            // The absolute value of a weight is 1 or more if both edges of the corner are almost on one line, or if the
-            // edge to which the weight belongs is too short. A weight of this size is replaced by 0. If the weights of
-            // both edges are 0, the point gets the values of the old vertex.
+            // Each of the two edges at the corner has a weight. If both edges are almost on one line, or if an edge is
+            // too short, the absolute value of its weight can be 1 or more. Such a weight is replaced by 0. If the
+            // weights of both edges are 0, the point gets the values of the old vertex.
             if weight.abs() < 1.0 { weight } else { 0.0 }
         };
         Some(Point {

@@ -24,9 +24,9 @@ pub struct Cuts {
 }
 
 impl Cuts {
-    /// Returns where the next bevel cuts the edge `e`: the distance of the cut from the end that the bevel removes, as
-    /// a fraction of the current length of `e`. `fraction` is the same distance, divided by the length of `e` before
-    /// all bevels. The result is 1 or more if the current length is too short for the cut.
+    /// Returns where the next bevel cuts the edge `e`. The result is the distance between the cut and the end that the
+    /// bevel removes, divided by the current length of `e`. `fraction` is the same distance, divided by the length of
+    /// `e` before all bevels. The result is 1 or more if the current length is too short for the cut.
     pub fn fraction(&self, e: EdgeId, fraction: f64) -> f64 {
         fraction / self.remaining.get(e.index()).unwrap_or(&1.0)
     }

@@ -34,8 +34,8 @@ impl Corner {
 /// pair of corner indices. The polygon must have corners on both sides of the line. `normal` is the normal of the
 /// polygon.
 ///
-/// If the chords inside the polygon cannot be determined, or do not separate the two sides of the line, each chain of
-/// corners to the left of the line is cut off separately.
+/// Sometimes, the chords inside the polygon cannot be determined, or do not separate the two sides of the line. Each
+/// chain of corners to the left of the line is then cut off separately.
 pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_good = |chords: &[[u32; 2]]| {
@@ -60,8 +60,8 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
 }
 
 /// Returns the chords inside the polygon, as pairs of corner indices. Returns `None` if the corners on the line
-/// contradict each other: for example, if the line is inside the polygon just ahead of one corner, but not just behind
-/// the next corner.
+/// contradict each other. For example, the line can be inside the polygon just after one corner on the line, but
+/// outside just before the next corner on the line.
 fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     let n = corners.len();
     let mut on_line: Vec<usize> = (0..n).filter(|&i| corners[i].height == 0.0).collect();
@@ -109,8 +109,8 @@ fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     (!is_inside).then_some(chords)
 }
 
-/// Returns two flags for a corner on the line: whether the line is inside the polygon just behind the corner,
-/// and whether it is inside just ahead of the corner.
+/// Returns two flags for a corner on the line. They tell whether the line, followed in its direction, is inside the
+/// polygon just before the corner, and just after the corner.
 ///
 /// The directions to the next and to the previous corner are measured in quarter turns from the line: 0 is
 /// ahead, 1 left, 2 behind, 3 right. Going counter-clockwise around the corner, the inside starts at the

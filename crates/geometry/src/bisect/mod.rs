@@ -55,8 +55,8 @@ pub struct Bisection {
 /// first corner keeps the id of the face; the other parts are new.
 ///
 /// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams are
-/// preserved. The parts of a split edge get copies of the values of the edge, and the parts of a cut face get copies of
-/// the values of the face. New edges on the plane have zero values.
+/// preserved. All parts of a split edge have the values of this edge, and all parts of a cut face have the values of
+/// this face. New edges on the plane have zero values.
 ///
 /// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times. The
 /// intervals of the line between the crossings are alternately inside and outside of the face. At each corner on the

@@ -43,8 +43,8 @@ pub fn vertex_directions(mesh: &Mesh) -> Vec<DVec3> {
             sum += vector;
             size += vector.length();
         }
-        // If the sum of the area vectors is much shorter than the sum of their lengths, the exact sum is possibly zero,
-        // and the computed sum is only a rounding error.
+        // If the area vectors almost cancel each other, their exact sum is possibly zero, and the computed sum is only
+        // a rounding error.
         if sum.length() > 1e-14 * size {
             sum.normalize_or_zero()
         } else {

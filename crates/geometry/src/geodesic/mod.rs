@@ -32,9 +32,9 @@ const LEAST_HEAT: f64 = 1e-280;
 /// the vertex with the index i. Entry i of `is_source` tells whether the vertex with the index i is a source. The
 /// distance is infinite for dead (removed) vertices, and for vertices that are not connected to any source by edges.
 ///
-/// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. If a path of edges
-/// connects a vertex to a source, the distance of the vertex is finite for any finite positions, even if triangles are
-/// degenerate. Polygons are cut into triangles. The result is identical bit for bit for any number of threads.
+/// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. A vertex that is
+/// connected to a source by edges has a finite distance if all positions are finite, even if triangles are degenerate.
+/// Polygons are cut into triangles. The result is identical bit for bit for any number of threads.
 ///
 /// # Errors
 ///

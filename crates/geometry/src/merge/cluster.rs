@@ -66,8 +66,8 @@ struct Point {
     index: u32,
 }
 
-/// Sorts points into the order of the tree: the points are split at the median along the longest side of their box, and
-/// both halves are sorted in the same way.
+/// Sorts points into the order of the tree. The points are split at the median along the longest side of their box.
+/// Both halves are then sorted in the same way.
 fn sort_into_tree(points: &mut [Point]) {
     let (min, max) = bounds(points);
     if points.len() <= LEAF || min == max {

@@ -1,7 +1,7 @@
 //! The limit on the distance between the original surface and the result.
 //!
 //! While the mesh changes, two distances are limited: from sample points of new triangles to the original surface, and
-//! from removed points to the new triangles. At the end, the Hausdorff distance is measured, which takes all points of
+//! from removed points to the new triangles. At the end, the Hausdorff distance is measured; it takes all points of
 //! both surfaces into account.
 
 use mesh::{DVec3, FaceId, Mesh};

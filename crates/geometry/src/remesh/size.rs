@@ -155,7 +155,7 @@ fn curvatures(original: &Original) -> Vec<f64> {
 }
 
 /// Returns the curvature of a line at a vertex: the angle by which the line turns there, divided by the mean length of
-/// the two edges of the line that meet there. The curvature is 0 at the corners of the line.
+/// its two edges at the vertex. The curvature is 0 at the corners of the line.
 fn line_curvature(original: &Original, v: VertexId) -> f64 {
     let Place::Line { .. } = original.places[v.index()] else {
         return 0.0;

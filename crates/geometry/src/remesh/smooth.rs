@@ -160,7 +160,7 @@ impl Work<'_> {
         for h in self.mesh.vertex_half_edges(v) {
             let [a, b, c] = self.triangle(h);
             let cross = cross([a, b, c]);
-            // The weight of the center of a triangle is the area of the triangle times the sum of the target lengths at
+            // The center of each triangle has a weight: the area of the triangle times the sum of the target lengths at
             // the two corners other than `v`.
             let size = self.sizes[self.mesh.target(h).index()]
                 + self.sizes[self.mesh.target(self.mesh.next(h)).index()];

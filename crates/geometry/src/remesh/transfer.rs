@@ -39,8 +39,8 @@ impl Blend {
     }
 }
 
-/// If the distance of a vertex from the original surface is at most this fraction of the target length, the distance is
-/// treated as a rounding error.
+/// A vertex can be slightly off the original surface because of rounding. A distance of at most this fraction of the
+/// target length is treated as such an error.
 const ROUNDING: f64 = 1e-9;
 
 impl Work<'_> {
@@ -254,8 +254,8 @@ impl Work<'_> {
         let nearest = index.nearest(middle, self.hint_of(f));
         let triangle = index.triangle(nearest.triangle);
         let weights = triangle.barycentric(middle);
-        // The barycentric weight of a corner is the distance of the point from the side opposite the corner, divided by
-        // the height of the triangle over this side.
+        // The barycentric weight of a corner is a ratio of two distances from the opposite side: the distance of the
+        // point, divided by the distance of the corner.
         let side = |i: usize| (weights[(i + 2) % 3], triangle.corners[i].edge());
         (0..3)
             .map(side)

@@ -76,8 +76,7 @@ pub(super) struct Appearance {
     bases: Vec<f64>,
 }
 
-/// The indices of two wedges (groups of face corners at a vertex) that an edge joins: one at the first end and one at
-/// the second end of the edge.
+/// The indices of two wedges (groups of face corners at a vertex) that an edge joins, one at each end of the edge.
 pub(super) type Pair = [u32; 2];
 
 /// For each face around an edge before its collapse, the corners of the face and their wedges (groups of face corners

@@ -34,8 +34,8 @@ pub enum Method {
         /// The fraction of the way to the mean by which a vertex moves, from 0 to 1.
         factor: f64,
     },
-    /// Alternates a Laplacian step with `factor` and a Laplacian step with a negative factor μ, for which
-    /// `pass_band` = 1 / factor + 1 / μ. Source: Taubin, "A Signal Processing Approach to Fair Surface Design",
+    /// Alternates two Laplacian steps: one with `factor`, and one with a negative factor μ. The number μ is chosen so
+    /// that `pass_band` = 1 / factor + 1 / μ. Source: Taubin, "A Signal Processing Approach to Fair Surface Design",
     /// 1995. One pass consists of both steps.
     Taubin {
         /// The weights of the neighbors.

@@ -1,8 +1,9 @@
 //! The numerical factorization L D Lᵀ, and the solution of equations.
 //!
 //! Each supernode has a front: a dense symmetric matrix of the rows of the supernode. The front is the sum of two
-//! parts: the entries of the matrix in the columns of the supernode, and the updates U from the children of the
-//! supernode in the tree. Eliminating the pivots P gives the columns of L and the update for the parent:
+//! parts. The first part has the entries of the matrix in the columns of the supernode. The second part is the sum of
+//! the updates U from the children of the supernode in the tree. Eliminating the pivots P gives the columns of L and
+//! the update for the parent:
 //!
 //! ```text
 //!     | P      |   pivots        | L      |
@@ -23,8 +24,8 @@ use front::{Front, Update};
 
 /// The largest number of entries of a factor. This number of entries takes 16 GiB.
 const MAX_ENTRIES: u64 = 1 << 31;
-/// A solution is accepted if its residual is at most this number times the size of the terms. To compute the size of
-/// the terms, the absolute values of the terms of each equation are added up, and the largest of these sums is taken.
+/// A solution is accepted if its residual is at most this number times the size of the terms. For each equation, the
+/// absolute values of its terms are added up. The size of the terms is the largest of these sums.
 const MAX_RESIDUAL: f64 = 1e-9;
 /// The refinement of a solution stops when its relative residual is at most this number, when the residual hardly
 /// decreases, or after [`REFINEMENTS`] steps.
@@ -203,9 +204,9 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the size of the terms. To compute the
-    /// size of the terms, the absolute values of the terms of each equation are added up, and the largest of these sums
-    /// is taken. After this error, the free entries of `x` are unspecified.
+    /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the size of the terms. For each
+    /// equation, the absolute values of its terms are added up. The size of the terms is the largest of these sums.
+    /// After this error, the free entries of `x` are unspecified.
     ///
     /// # Panics
     ///
@@ -244,8 +245,8 @@ impl<'a> Factor<'a> {
         }
     }
 
-    /// Returns the residual b - A x for the rows of the free unknowns. Also returns the size of the terms: for each
-    /// row, the absolute values of its terms are added up, and the result is the largest of these sums.
+    /// Returns the residual b - A x for the rows of the free unknowns. Also returns the size of the terms. For each
+    /// row, the absolute values of its terms are added up; the size of the terms is the largest of these sums.
     fn residual<T: Entry>(&self, b: &[T], x: &[T]) -> (Vec<T>, f64) {
         let rows: Vec<(T, f64)> = parallel::collect(self.free.len(), |i| {
             let i = self.free[i] as usize;

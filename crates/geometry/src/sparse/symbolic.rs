@@ -94,8 +94,8 @@ pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
     position
 }
 
-/// Returns, for each column of the permuted matrix, its parent: the row of the first entry below the diagonal in the
-/// same column of the factor.
+/// Returns the parent of each column of the permuted matrix. The parent is the row of the first entry below the
+/// diagonal in the same column of the factor.
 fn elimination_tree<I: Iterator<Item = u32>>(
     order: &[u32],
     neighbors: impl Fn(usize) -> I,

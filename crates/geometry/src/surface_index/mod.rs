@@ -11,10 +11,11 @@
 //! assert_eq!(nearest.distance, 1.0);
 //! ```
 //!
-//! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted along the longest side of the
-//! bounding box of their centers; each child gets half of the triangles. A node also has a slab: two parallel planes
-//! with its triangles between them. If many triangles of the surface are thin, nodes also have oriented boxes, whose
-//! sides do not have to be parallel to the axes. The tree depends only on the mesh, not on the number of threads.
+//! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted by their centers, along the
+//! longest side of the bounding box of the centers. Each child gets half of the triangles. A node also has a slab: two
+//! parallel planes with its triangles between them. If many triangles of the surface are thin, nodes also have oriented
+//! boxes, whose sides do not have to be parallel to the axes. The tree depends only on the mesh, not on the number of
+//! threads.
 //!
 //! A face with four corners is divided into a fan of two triangles. A face with more corners is divided by
 //! [`triangulate`](mod@crate::triangulate).

@@ -65,10 +65,10 @@ impl SurfaceIndex {
     /// distance to the box of the node.
     ///
     /// The triangles lie in the part of the box that is in the slab. Each λ ≥ 0 gives a lower bound on the squared
-    /// distance from `p` to this part: the minimum of |p - x|² + 2 λ (n·x - high) over all points x of the box. Here n
-    /// is the normal of the slab on the side of p, and n·x <= high for all points x of the slab. The minimum is at
-    /// x = p - λ n, clamped to the box. Newton steps improve λ. Source: Boyd, Vandenberghe, "Convex Optimization",
-    /// 2004, §5.1.3.
+    /// distance from `p` to this part. The bound is the minimum of |p - x|² + 2 λ (n·x - high) over all points x of the
+    /// box. Here n is the normal of the slab on the side of p, and n·x <= high for all points x of the slab. The
+    /// minimum is at x = p - λ n, clamped to the box. Newton steps improve λ. Source: Boyd, Vandenberghe, "Convex
+    /// Optimization", 2004, §5.1.3.
     pub(super) fn slab_distance_squared(&self, p: DVec3, i: usize, squared: f64) -> f64 {
         let (node, slab) = (&self.nodes[i], &self.slabs[i]);
         let [x, y, z] = slab.normal.map(f64::from);

@@ -79,8 +79,8 @@ pub fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
 }
 
 /// Returns the distance between two triangles, which is 0 if they have a common point. If the triangles have no common
-/// point, the result is the smallest of these distances: from each corner of one triangle to the other triangle, and
-/// from each side of one triangle to each side of the other triangle. If a zero-area triangle passes through the other
+/// point, the result is the smallest of several distances. These are the distances from each corner to the other
+/// triangle, and the distances between sides of the two triangles. If a zero-area triangle passes through the other
 /// triangle, the result can be above 0, although the triangles have common points.
 pub fn triangle_distance(s: &[DVec3; 3], t: &[DVec3; 3]) -> f64 {
     if triangles_intersect(s, t) {

@@ -188,8 +188,8 @@ impl<'a> Polygon<'a> {
     }
 }
 
-/// A side of the polygon that the horizontal sweep line meets. The same type is used to search for the side to the left
-/// of a corner: then `upper` is the corner, and `lower` is one of the two corners next to it.
+/// A side of the polygon that the horizontal sweep line meets. The search for the side to the left of a corner uses the
+/// same type. In this search, `upper` is the corner, and `lower` is one of the two corners next to it.
 #[derive(Clone, Copy)]
 struct Side {
     upper: DVec2,

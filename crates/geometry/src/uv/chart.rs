@@ -24,9 +24,9 @@ pub(super) struct Limits {
     /// The smallest allowed cosine of the angle between the smoothed normal of a face of the chart and the mean normal
     /// of the chart.
     pub(super) min_cosine: f64,
-    /// The largest allowed ratio between the area scale of a triangle and the mean scale of the chart: the larger of
-    /// the two scales, divided by the smaller. The area scale of a triangle is its area in the plane, divided by its
-    /// area on the surface.
+    /// The largest allowed ratio between the area scale of a triangle and the mean scale of the chart. The ratio is the
+    /// larger of the two scales, divided by the smaller. The area scale of a triangle is its area in the plane, divided
+    /// by its area on the surface.
     pub(super) max_stretch: f64,
 }
 
@@ -124,8 +124,8 @@ pub(super) fn chart(
     Ok(Err((part, failure)))
 }
 
-/// Checks a map of a part into the plane: triangles must neither be mirrored nor overlap each other, and the stretch
-/// must be within the limits.
+/// Checks the positions of a part in the plane. Triangles must neither be mirrored nor overlap each other, and the
+/// stretch must be within the limits.
 fn check(
     part: &Part,
     uvs: &[DVec2],

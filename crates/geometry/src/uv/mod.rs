@@ -84,8 +84,9 @@ pub struct Charts {
     pub n: usize,
 }
 
-/// Returns the charts of a mesh with the texture coordinates `uvs`. Two faces are in the same chart if a path leads
-/// from one face to the other across edges that have the same texture coordinates on both sides.
+/// Returns the charts of a mesh with the texture coordinates `uvs`. Two faces are in the same chart if a path of
+/// neighboring faces connects them. Each edge that the path crosses must have the same texture coordinates on both
+/// sides.
 pub fn charts(mesh: &Mesh, uvs: &[DVec2]) -> Charts {
     let n_faces = mesh.domain_len(mesh::Domain::Face);
     let sets = UnionFind::new(number(n_faces));

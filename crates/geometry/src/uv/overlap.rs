@@ -7,8 +7,8 @@ use progress::{Cancelled, Progress};
 
 use crate::tangent::triangles;
 
-/// If the total area of the bounding boxes of some triangles is more than this number times the total area of the
-/// triangles, most of the triangles are thin and oblique.
+/// The total area of the bounding boxes of some triangles is divided by the total area of the triangles. If the
+/// quotient is above this number, most of the triangles are thin and oblique.
 const MAX_BOXES: f64 = 16.0;
 
 /// Returns a rotation, as a complex number, that makes the bounding boxes of thin triangles small: it makes their long

@@ -30,8 +30,8 @@ pub struct Packed {
 
 /// The largest number of charts that are nested: small charts can lie in the hollows of large charts. If there are more
 /// charts, all charts are packed in rows, because the time for nesting grows faster than the number of charts. For
-/// 3,324 charts on a page of 4096 texels, rows are 15 times as fast as nesting, but cover only 61 % of the page instead
-/// of 66 %.
+/// 3,324 charts on a page of 4096 texels, packing in rows is 15 times as fast as nesting. However, the charts then
+/// cover only 61 % of the page instead of 66 %.
 const MAX_NESTED: usize = 256;
 
 /// A triangle whose area is at most this fraction of the area of its chart is ignored when the chart is packed.

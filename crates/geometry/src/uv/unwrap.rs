@@ -17,8 +17,9 @@ pub struct UnwrapOptions<'a> {
     /// The largest angle between the normal of a face and the mean normal of its chart, in degrees, strictly between 0
     /// and 90.
     pub max_angle: f64,
-    /// The largest allowed factor, at least 1, by which the area scale of a triangle is larger or smaller than the mean
-    /// scale of its chart. The area scale of a triangle is its area in the texture, divided by its area on the surface.
+    /// The largest allowed ratio, at least 1, between the area scale of a triangle and the mean scale of its chart. The
+    /// ratio is the larger of the two scales, divided by the smaller. The area scale of a triangle is its area in the
+    /// texture, divided by its area on the surface.
     pub max_stretch: f64,
     /// The size of the texture, and the padding around the charts.
     pub page: Page,

@@ -41,8 +41,8 @@ fn is_in([a, b, c]: &[Int; 3], (at, d): Point) -> bool {
 }
 
 /// Tests with rational arithmetic whether two triangles have a common point that is not on a common corner or side. The
-/// set of common points is the convex hull of these points: corners of one triangle that lie in the other, points where
-/// a side meets the plane of the other triangle, and points where two sides meet.
+/// set of common points is the convex hull of three kinds of points: corners of one triangle that lie in the other,
+/// points where a side of one triangle meets the plane of the other, and points where two sides meet.
 fn intersect(s: &[Int; 3], t: &[Int; 3]) -> bool {
     if normal(s) == [0; 3] || normal(t) == [0; 3] {
         return false;

@@ -61,7 +61,7 @@ pub fn capsule(
     text + "    ],\n)\n"
 }
 
-/// Returns the text with which a recipe runs a step.
+/// Returns the RON text of a step, as it is written in a recipe.
 fn line(step: &RecipeStep, value: &Value) -> String {
     let mut fields = Vec::new();
     if step.label != step.name {

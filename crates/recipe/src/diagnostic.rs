@@ -21,7 +21,8 @@ use crate::source::Source;
 
 /// Renders diagnostics in the order of the text, each with the lines of the text to which it refers.
 ///
-/// `sources` are the sources of the recipe. If `colours` is set, the output contains ANSI color codes.
+/// `sources` are the texts to which the diagnostics refer: the recipe and the recipes that it calls. If `colours` is
+/// set, the output contains ANSI color codes.
 pub fn render(sources: &[Source], diagnostics: &[Diagnostic], colours: bool) -> String {
     let mut sorted: Vec<&Diagnostic> = diagnostics.iter().collect();
     sorted.sort_by_key(|d| (d.source, d.span, d.severity));

@@ -5,9 +5,9 @@
 //!                          thread 2: job 5
 //! ```
 //!
-//! Jobs run on the same threads as the parallel loops inside them. While every thread has a job, each parallel loop
-//! runs entirely on the thread of its job, without the cost of distributing its work. When no more jobs can start, idle
-//! threads help with the parallel loops of the last jobs. If there is not enough memory for the next job, a thread
+//! A job and the parallel loops inside the job run on the same threads. While every thread has a job, each parallel
+//! loop runs entirely on the thread of its job, without the cost of distributing its work. When no more jobs can start,
+//! idle threads help with the parallel loops of the last jobs. If there is not enough memory for the next job, a thread
 //! without a job returns to the thread pool. If it waited for memory instead, it could not help with the parallel loops
 //! of other jobs. When a thread has completed a job, it frees the memory of the job. If the limits then allow the next
 //! job, the same thread starts it. If the limits still allow one more job, the thread also wakes another thread. While
@@ -293,8 +293,9 @@ const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. For each step, the forecast can have an upper limit for
     /// the memory that the meshes take after the step. If all steps have an upper limit, the estimate is the size of
-    /// the input files plus the largest of these limits. Otherwise, the estimate is eight times the size of the input
-    /// files. If the meshes certainly take more memory than this after a step, the estimate is that amount of memory.
+    /// the input files plus the largest of these limits. Otherwise, the estimate is the larger of two numbers: eight
+    /// times the size of the input files, and the largest amount of memory that the meshes certainly take after any
+    /// step.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

@@ -264,13 +264,13 @@ impl Recipe {
             .any(|placed| placed.that.output().is_some())
     }
 
-    /// Returns which source text contains a scope, as an index into [`Recipe::sources`].
+    /// Returns the index, in [`Recipe::sources`], of the source text that contains a scope.
     pub fn source_of(&self, scope: usize) -> usize {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
 
-    /// Returns the diagnostic with its location added: which source text contains the scope (as an index into
-    /// [`Recipe::sources`]), and the calls that led to the scope.
+    /// Adds a location to a diagnostic, and returns the diagnostic. The location consists of the calls that led to the
+    /// scope, and of the index of the source text of the scope in [`Recipe::sources`].
     pub fn located(&self, diagnostic: Diagnostic, scope: usize) -> Diagnostic {
         located(diagnostic, scope, &self.scopes)
     }

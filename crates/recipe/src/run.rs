@@ -152,7 +152,7 @@ pub struct StepError {
     pub help: Option<&'static str>,
 }
 
-/// The error that ends a run early. The cancellation or the failure that caused it is already recorded.
+/// The error that ends a run early. The cancellation or the failure that caused this error is already recorded.
 struct Stopped;
 
 impl Runner<'_> {
@@ -271,8 +271,8 @@ impl Runner<'_> {
     }
 
     /// Advances `scene` to the scene before the step with the index `to`. All earlier steps must be done. If the cache
-    /// has stored scenes that are later than `scene` and not later than the target, loads the latest of them. Runs the
-    /// remaining steps before `to` again.
+    /// has scenes from between these two points of the run, loads the latest of these scenes. Then runs the remaining
+    /// steps before `to` again.
     fn advance_scene(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
         if self.scene_index < to
             && let Some(session) = &mut self.session
@@ -343,8 +343,8 @@ impl Runner<'_> {
         self.failures.push(diagnostic);
     }
 
-    /// Checks the expectations that are placed after the step with the index `after`. If `after` is `None`, checks
-    /// those that are placed at the end of the recipe.
+    /// Checks the expectations that are placed after the step with the index `after`. If `after` is `None`, checks the
+    /// expectations at the end of the recipe.
     fn check_expectations(
         &mut self,
         after: Option<usize>,

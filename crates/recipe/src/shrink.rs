@@ -44,8 +44,8 @@ pub fn is_alike(a: &str, b: &str) -> bool {
     words(a) == words(b)
 }
 
-/// Returns the smallest scene found for which `fails` returns `true`. `fails` must return `true` for `scene`. `fails`
-/// is called at most `tries` times.
+/// Searches for smaller scenes for which `fails` returns `true`, and returns the smallest one that was found. `fails`
+/// must return `true` for `scene`. `fails` is called at most `tries` times.
 ///
 /// # Errors
 ///
@@ -118,7 +118,7 @@ impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
                     None => false,
                 };
                 is_smaller |= is_done;
-                // A removal compacts the mesh: the faces after the removed faces get their ids. Therefore, the block
+                // A removal compacts the mesh: the next faces get the ids of the removed faces. Therefore, the block
                 // after a removed block starts at the same id.
                 first = if is_done { first } else { last };
             }

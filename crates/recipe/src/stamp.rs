@@ -46,7 +46,7 @@ pub struct Run {
     pub inputs: Pairs,
 }
 
-/// A map from names to strings that is sorted by name.
+/// Named strings, sorted by name.
 pub type Pairs = std::collections::BTreeMap<String, String>;
 
 impl Stamp {

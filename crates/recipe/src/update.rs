@@ -99,9 +99,9 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
-/// Finds the expectations that do not hold after at least one repetition of their step. For each of these expectations,
-/// returns a list with one entry for each repetition. The entry is the failure of the expectation in this repetition,
-/// or `None` if the expectation holds.
+/// Finds the expectations that fail after one or more repetitions of the step to which they belong. For each of these
+/// expectations, returns a list with one entry for each repetition. The entry is the failure of the expectation in this
+/// repetition, or `None` if the expectation holds.
 fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,

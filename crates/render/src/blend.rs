@@ -6,10 +6,10 @@ pub(crate) fn over([r, g, b, a]: [u8; 4], under: [u8; 4]) -> [u8; 4] {
     blended([r, g, b].map(|c| u32::from(c) * u32::from(a)), a, under)
 }
 
-/// Returns the color `over` composited over the color `under`. `over` has premultiplied alpha and channels from 0 to
-/// 255 * 255; `under` has straight alpha. Let s and S be the alpha and the color of `over`, and let d and D be the
-/// alpha and the color of `under`. The result has the alpha a = s + d (1 - s) and the color (S s + D d (1 - s)) / a
-/// (Porter and Duff, "Compositing digital images", 1984).
+/// Returns the result of drawing the color `over` on top of the color `under`. `over` has premultiplied alpha and
+/// channels from 0 to 255 * 255; `under` has straight alpha. Let s and S be the alpha and the color of `over`, and let
+/// d and D be the alpha and the color of `under`. The result has the alpha a = s + d (1 - s) and the color (S s + D d
+/// (1 - s)) / a (Porter and Duff, "Compositing digital images", 1984).
 pub(crate) fn blended(over: [u32; 3], alpha: u8, under: [u8; 4]) -> [u8; 4] {
     let s = u32::from(alpha);
     // Alphas are in units of 1/255. Products of two alphas are in units of 1/(255 * 255).

@@ -32,8 +32,8 @@ pub enum Camera {
         #[serde(default = "margin")]
         #[schemars(range(min = 0.0, max = 0.45))]
         margin: f64,
-        /// Whether the scale is the same from every direction. An animation in which the camera turns around the scene
-        /// needs this.
+        /// Whether the scale is the same from every direction. Set this for an animation in which the camera turns
+        /// around the scene.
         #[serde(default)]
         steady: bool,
     },
@@ -46,8 +46,8 @@ pub enum Camera {
         /// The axis that points upwards.
         #[serde(default)]
         up: Up,
-        /// The projection. With `Orthographic`, the picture has the scale that a perspective picture with a field of
-        /// view of 30 degrees has at the point `to`.
+        /// The projection. With `Orthographic`, the scale is the same as the scale at the point `to` in a perspective
+        /// picture with a field of view of 30 degrees.
         #[serde(default)]
         projection: Projection,
     },
@@ -149,7 +149,7 @@ fn margin() -> f64 {
 }
 
 /// The side from which the camera looks. If y points upwards, the front is the side where z is large, as in glTF. If z
-/// points upwards, the front is the side where y is small, as on a map.
+/// points upwards, the front is the side where y is small (the south side on a map).
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Side {
@@ -399,8 +399,8 @@ impl View {
     /// Returns a number that says whether the point `v` is on the visible side of a clipping plane. The number is at
     /// least 0 on the visible side, and it is linear in `v`. `v` is in [camera coordinates](Self::camera_space).
     ///
-    /// Plane 0 is the near plane. Planes 1 to 4 are to the left, to the right, above and below. In the picture, each of
-    /// these four planes is a line at a distance of `far` pixels from the upper left corner.
+    /// Plane 0 is the near plane. Planes 1 to 4 bound the visible region on the left, on the right, above and below. In
+    /// the picture, each of these four planes appears as a line, `far` pixels away from the upper left corner.
     pub(crate) fn clip_distance(&self, plane: usize, far: f64, v: DVec3) -> f64 {
         let distance = if self.is_perspective { v.z } else { 1.0 };
         let (x, y) = (self.scale * v.x, -self.scale * v.y);
@@ -426,8 +426,8 @@ impl View {
         }
     }
 
-    /// Returns the origin and the direction of the ray through a point of the picture, in scene units. The component of
-    /// the direction along the axis of the camera has length 1.
+    /// Returns the origin and the direction of the ray through a point of the picture, in scene units. The length of
+    /// the direction vector is chosen so that its component along the axis of the camera is 1.
     pub(crate) fn ray(&self, at: DVec2) -> (DVec3, DVec3) {
         let [x, y, z] = self.axes;
         let d = (at - self.middle) / self.scale;

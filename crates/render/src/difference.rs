@@ -13,8 +13,8 @@ const DIFFERENT: [u8; 4] = [0xd6, 0x20, 0x28, 255];
 /// The factor by which the contrast of the expected image is reduced.
 const FAINT: u32 = 4;
 
-/// Returns a faint gray copy of `expected` with the different pixels in red. A pixel is different if a channel differs
-/// by more than `tolerance`, where channels are from 0 to 255. Returns `None` if the sizes of the images differ.
+/// Returns a faint gray copy of `expected` with the different pixels in red. A pixel is different if one of its
+/// channels (each from 0 to 255) differs by more than `tolerance`. Returns `None` if the sizes of the images differ.
 pub fn difference(expected: &Image, found: &Image, tolerance: u8) -> Option<Image> {
     let is_near =
         |a: &[u8; 4], b: &[u8; 4]| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= tolerance);
@@ -32,7 +32,7 @@ pub fn difference(expected: &Image, found: &Image, tolerance: u8) -> Option<Imag
 }
 
 /// Compares two PNG files, which can be animations. Returns a message that describes the difference, or `None` if no
-/// channel differs by more than `tolerance`, where channels are from 0 to 255.
+/// channel (from 0 to 255) of any pixel differs by more than `tolerance`.
 ///
 /// # Errors
 ///

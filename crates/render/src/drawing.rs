@@ -31,8 +31,8 @@ pub struct Part<'a> {
     /// For each triangle, three indices into lists that have one value for each corner, for example
     /// [`Channel::Corner`]. Empty if the part has no such list.
     pub corners: Vec<[u32; 3]>,
-    /// For each triangle, the index of the face that it belongs to, in ascending order. The list is empty if each
-    /// triangle is a face of its own.
+    /// For each triangle, the index of the face that contains it. The indices are in ascending order. The list is empty
+    /// if each triangle is a face of its own.
     pub faces: Vec<u32>,
     /// The number of faces.
     pub n_faces: u32,
@@ -57,8 +57,8 @@ pub struct Part<'a> {
 /// The appearance of faces.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Linear red, green, blue and alpha, from 0 to 1. Of the samples in each pixel, the surface covers a fraction that
-    /// is equal to alpha.
+    /// Linear red, green, blue and alpha, from 0 to 1. Alpha is the fraction of a pixel's samples that the surface
+    /// covers.
     pub color: [f32; 4],
     /// The texture. The color, including alpha, is multiplied by the texture.
     pub texture: Option<Arc<Texture>>,
@@ -101,9 +101,9 @@ pub struct Line {
     pub width: f32,
     /// Linear red, green, blue and alpha.
     pub color: [f32; 4],
-    /// The indices of the faces beside the line. The faces beside the line never hide it. Faces are counted through all
-    /// parts: the first face of a part has the index after the last face of the previous part. [`NO_FACE`] means no
-    /// face.
+    /// The indices of the faces beside the line. The faces beside the line never hide it. Face indices continue from
+    /// part to part: the first face of a part has the index after the last face of the previous part. [`NO_FACE`] means
+    /// no face.
     pub faces: [u32; 2],
     /// The opacity of the line where a surface hides it, from 0 to 1. A hidden point is drawn as a ring.
     pub hidden: f32,
@@ -128,7 +128,7 @@ pub struct Label {
 /// All input of the rasterizer.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing<'a> {
-    /// The parts. Triangles and faces are counted through all parts, in this order.
+    /// The parts. The indices of triangles and faces continue from each part to the next one in this list.
     pub parts: Vec<Part<'a>>,
     /// Lines and points. Later entries are drawn on top of earlier entries.
     pub lines: Vec<Line>,

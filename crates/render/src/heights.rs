@@ -64,7 +64,8 @@ impl Heights {
     }
 }
 
-/// Returns the indices of the two pixels of a row or column around a coordinate, and the weight of the second pixel.
+/// Returns the indices of the two pixels on either side of a coordinate in a row or column, and the weight of the
+/// second pixel.
 fn pixels(at: f64, n: usize) -> (usize, usize, f64) {
     let at = if (0.0..=1.0).contains(&at) {
         at

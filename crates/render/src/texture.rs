@@ -218,9 +218,10 @@ impl Texture {
     /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` says how the
     /// texture coordinates change from this sample to the next sample on the right, and to the next sample below.
     ///
-    /// With [`Alpha::Cut`], the interpolated alpha of the first level is compared with the cutoff. For all other mipmap
-    /// levels, the alpha of each pixel of the image was compared with the cutoff first, and the results were averaged.
-    /// Therefore fine structures such as leaves do not become thinner or denser when they are seen from far away.
+    /// With [`Alpha::Cut`], the first mipmap level interpolates alpha and then compares it with the cutoff. The other
+    /// levels store averages: the alpha of each pixel of the image was first compared with the cutoff, and the results
+    /// were averaged. Therefore fine structures such as leaves do not become thinner or denser when they are seen from
+    /// far away.
     pub(crate) fn coverage(&self, uv: DVec2, steps: [DVec2; 2]) -> f32 {
         let footprint = self.footprint(uv, steps);
         let [coverage] = footprint.interpolate(|level| {
@@ -259,7 +260,7 @@ impl Texture {
     }
 
     /// Interpolates between the pixels of a level at the position of `footprint`. `texel` converts a pixel to the
-    /// values to interpolate. Outside of the image, the wrap mode of the sampler selects the pixels.
+    /// values that are interpolated. Outside of the image, the wrap mode of the sampler selects the pixels.
     fn at_level<const N: usize>(
         &self,
         level: usize,

@@ -9,7 +9,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// The message: one line that starts in lower case and has no final period.
     pub message: String,
-    /// Which source text the spans refer to, as an index into the list of all source texts. The index 0 is the first
+    /// The index of the source text that the spans refer to, in the list of all source texts. The index 0 is the first
     /// text.
     pub source: usize,
     /// The span that the message is about, if it is about a part of the text.

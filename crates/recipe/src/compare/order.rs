@@ -1,5 +1,5 @@
-//! Lists the elements of a mesh in a fixed order. Two meshes are compared by comparing the elements at the same indices
-//! of their lists.
+//! Lists the elements of a mesh in a fixed order. To compare two meshes, the elements at the same index in both lists
+//! are compared.
 
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 

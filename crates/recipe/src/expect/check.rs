@@ -268,8 +268,8 @@ fn count(of: &Elements, object: &Object, mesh: &Mesh, subject: Subject) -> Resul
     Ok(n as u64)
 }
 
-/// Checks that the Hausdorff distance of two meshes is certainly below a limit. For a small limit, the measurement has
-/// a smaller tolerance, so that the limit can be checked, too.
+/// Checks that the Hausdorff distance of two meshes is certainly below a limit. The smaller the limit, the smaller the
+/// tolerance of the measurement, so that small limits can be checked, too.
 fn distance_below(
     mesh: &Mesh,
     other: &Mesh,

@@ -66,7 +66,7 @@ impl<'a> PlacedSubject<'a> {
         })
     }
 
-    /// Returns the subject whose objects are the instances.
+    /// Returns a subject (a scene to check) in which each instance is an object.
     pub(crate) fn subject(&self) -> Subject<'_> {
         Subject {
             scene: &self.scene,

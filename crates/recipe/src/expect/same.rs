@@ -160,8 +160,8 @@ impl FreeVertices {
             .fold(own, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     }
 
-    /// Returns the distance from `p` to the bounding box of the part of the tree that a vertex splits. The distance is
-    /// infinite if no vertex of this part is free.
+    /// The vertex at index `i` splits a part of the tree. Returns the distance from `p` to the bounding box of the free
+    /// vertices in this part. The distance is infinite if no vertex of this part is free.
     fn distance(&self, i: usize, p: DVec3) -> f64 {
         let [min, max] = self.boxes[i];
         if min.x > max.x {
@@ -209,8 +209,8 @@ fn split(mesh: &Mesh, tree: &mut [(VertexId, u8)]) {
     split(mesh, &mut above[1..]);
 }
 
-/// Whether the faces of `other` become the faces of `mesh` when their vertices are mapped by `map`. If `reversed` is
-/// set, the winding of the mapped faces is reversed before the comparison.
+/// Whether the faces of `other` become the faces of `mesh` if each vertex of `other` is replaced by its vertex in
+/// `map`. If `reversed` is set, the winding of the mapped faces is reversed before the comparison.
 pub(crate) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: bool) -> bool {
     let canonical = |mut corners: Vec<VertexId>| {
         let lowest = corners

@@ -24,7 +24,7 @@ pub trait Reader: Sync {
     fn scene(&self, path: &Path, files: &Files) -> Result<Scene, Violation>;
 
     /// Compares the pixels of two PNG files, each given by its path and bytes. Returns a description of the differences
-    /// that are larger than `tolerance` steps of 1/255. Returns `None` if no difference is larger.
+    /// that are larger than `tolerance` steps of 1/255. Returns `None` if there are no such differences.
     ///
     /// # Errors
     ///

@@ -12,7 +12,7 @@ use mesh::DVec3;
 pub struct Violation {
     /// The expected and the actual value, or the reason why the evaluation failed, in one line.
     pub message: String,
-    /// The actual value, if it can replace the expected value, so that the expectation holds.
+    /// The actual value, if the expectation holds after the expected value is replaced by the actual value.
     pub found: Option<ActualValue>,
     /// Whether the expectation could not be checked, for example because a file cannot be read. In this case, `Not(..)`
     /// of the expectation does not hold either.

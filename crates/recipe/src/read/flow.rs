@@ -46,8 +46,8 @@ impl Reader<'_, '_> {
     /// Replaces a step that contains other steps by the steps inside it.
     pub(super) fn flow(&mut self, kind: Kind, mut value: Value) -> Vec<Draft> {
         let is_envelope = matches!(value.kind, ValueKind::Struct(_));
-        // The inner steps are taken out of `value`, because they are read later like all steps. Their parameters are
-        // substituted when they are read.
+        // The inner steps are taken out of `value`, because they are read later like all steps. At that time, the
+        // parameters in the inner steps are substituted.
         let bodies = ["steps", "otherwise"].map(|field| {
             let run = if is_envelope {
                 value.field_mut("run")
@@ -225,7 +225,7 @@ impl Reader<'_, '_> {
         drafts
     }
 
-    /// Returns the source text of a called recipe, as an index into the list of source texts. Reports an error and
+    /// Returns the index of the source text of a called recipe in the list of source texts. Reports an error and
     /// returns `None` in three cases: the text cannot be read, the recipe calls itself, or calls are nested too deeply.
     fn open_called(&mut self, path: &Path, span: Span) -> Option<usize> {
         let mut chain = vec![self.scope];

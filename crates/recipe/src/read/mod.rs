@@ -248,8 +248,8 @@ impl<'s, 'a> Reader<'s, 'a> {
         values(self);
         self.shared.scopes[self.scope].parameters = self.parameters.values().cloned().collect();
         let mut drafts = self.steps(take_items(root.field_mut("steps")));
-        // For each id, the indices in `drafts` of the steps that have this id. An id inside a `Repeat` has one index
-        // for each repetition. For the id of a step that contains steps, the index of its last step is used. An id in a
+        // For each id, the indices (in `drafts`) of the steps with this id. An id inside a `Repeat` has one index for
+        // each repetition. For the id of a step that contains steps, the index of its last step is used. An id in a
         // branch that is not taken has no index.
         let mut ends: HashMap<String, Vec<usize>> = HashMap::new();
         for (i, draft) in drafts.iter().enumerate() {

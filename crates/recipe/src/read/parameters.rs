@@ -158,8 +158,8 @@ impl Reader<'_, '_> {
     /// every `arg(..)`.
     pub(super) fn fill(&mut self, value: &mut Value) -> bool {
         let mut used = Vec::new();
-        // The spans of parameter names whose declarations have errors. No error is reported at these spans, because the
-        // errors in the declarations were already reported.
+        // The spans of the names of parameters that have errors in their declarations. No error is reported at these
+        // spans, because the errors in the declarations were already reported.
         let mut reported = Vec::new();
         let resolve = |name: &str, span: Span| {
             if !self.used.contains(name) {

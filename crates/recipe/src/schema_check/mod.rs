@@ -39,7 +39,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use shorthand::Short;
 
-/// Returns all errors of `value` against `schema`, in the order of the text.
+/// Checks `value` against `schema`, and returns all errors in the order of the text.
 ///
 /// `schema` is a root schema: references in it are looked up in its own `$defs`. Parts of the value that could not be
 /// read are skipped.
@@ -58,9 +58,9 @@ pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
 ///
 /// # Errors
 ///
-/// Returns all errors of the value against the schema. If there are none, returns the error of deserialization. The
-/// list is empty if the only error is a part of the value that could not be read. The parser has already reported this
-/// error.
+/// Returns all errors that the check against the schema finds. If the check finds none, returns the error of
+/// deserialization. The list is empty if the only error is a part of the value that could not be read. The parser has
+/// already reported this error.
 pub(crate) fn typed<T: DeserializeOwned>(
     value: &Value,
     schema: &Json,

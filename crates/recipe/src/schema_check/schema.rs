@@ -8,7 +8,8 @@ use serde_json::{Map, Value as Json};
 #[derive(Clone, Debug)]
 pub(crate) struct Schema<'s> {
     root: &'s Json,
-    /// The schema itself and the schemas that it includes by `$ref` and `allOf`. A value must fit all layers.
+    /// The layers: the schema itself, and the schemas that it includes by `$ref` and `allOf`. A value must fit all of
+    /// them.
     layers: Vec<&'s Map<String, Json>>,
     /// The name of the Rust type, if it has one.
     name: Option<&'s str>,
@@ -28,7 +29,8 @@ pub(super) struct Choice<'s> {
     pub(super) others: Vec<Schema<'s>>,
 }
 
-/// The maximum number of layers. A limit is necessary because a schema can refer to itself.
+/// The maximum number of layers (a schema and the schemas that it includes). A limit is necessary because a schema can
+/// refer to itself.
 const MAX_LAYERS: usize = 32;
 
 impl<'s> Schema<'s> {
@@ -77,7 +79,8 @@ impl<'s> Schema<'s> {
         }
     }
 
-    /// Returns the values that a keyword has in the layers. The outermost layer comes first.
+    /// Returns the values that a keyword has in this schema and in the schemas that it includes. The outermost schema
+    /// comes first.
     fn all(&self, keyword: &str) -> impl Iterator<Item = &'s Json> {
         self.layers
             .iter()
@@ -88,7 +91,7 @@ impl<'s> Schema<'s> {
         self.all(keyword).find_map(Json::as_str)
     }
 
-    /// Returns the numbers that a keyword has in the layers.
+    /// Returns the numbers that a keyword has in this schema and in the schemas that it includes.
     pub(crate) fn numbers(&self, keyword: &str) -> impl Iterator<Item = &'s serde_json::Number> {
         self.all(keyword).filter_map(Json::as_number)
     }

@@ -96,9 +96,10 @@ impl Checker {
                 Some(help),
             );
         }
-        // For each variant, counts the names in the value that are selections of this variant. The variant with the
-        // highest count fits best. If several variants have the same count, the variant with the fewest errors fits
-        // best. If several variants also have the same number of errors, the first of them is chosen.
+        // For each variant, counts how many names in the value are selections that this variant can contain. The
+        // variant with the highest count fits best. If several variants have the same count, the variant with the
+        // fewest errors fits best. If several variants also have the same number of errors, the first of them is
+        // chosen.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };

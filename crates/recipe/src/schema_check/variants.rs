@@ -20,8 +20,8 @@ impl Checker {
         match choice.others.as_slice() {
             [] => self.check_variant(value, schema, choice, place),
             [one] => self.check(value, one, place),
-            // Several alternatives that are not variants occur only in untagged enumerations. Parameters do not use
-            // untagged enumerations, so nothing is checked here.
+            // Only the schema of an untagged enumeration has several alternatives that are not variants. Parameters do
+            // not use untagged enumerations, so nothing is checked here.
             _ => {}
         }
     }

@@ -131,8 +131,8 @@ pub const PALETTE: [Color; 6] = [
 /// texture cannot be drawn if `images` returns `None` or the bytes are not a PNG or JPEG file. Then the surface is
 /// drawn without this texture, and a message gives the path and the reason.
 ///
-/// Of each material, the drawing uses the base color and alpha with their texture, the roughness, the emission,
-/// `unlit`, and `double_sided`.
+/// The drawing uses these parts of each material: the base color and alpha with their texture, the roughness, the
+/// emission, `unlit`, and `double_sided`.
 ///
 /// # Errors
 ///

@@ -118,7 +118,7 @@ mod tests {
         let uvs = mesh.half_edges().map(|h| mesh.position(mesh.origin(h)));
         let uvs: Vec<DVec2> = uvs.map(DVec3::truncate).collect();
         // If the material uses the second set of texture coordinates, all coordinates in the first set are 0. Then a
-        // picture from the wrong set differs from the expected picture.
+        // picture that uses the wrong set differs from the expected picture.
         if material
             .base_color_texture
             .as_ref()
@@ -145,8 +145,8 @@ mod tests {
 
     /// Draws the unit square, seen from above, so that it fills a picture of `side` times `side` pixels.
     fn draw(material: Material, side: u32) -> Vec<[u8; 4]> {
-        // An orthographic picture shows a height of 2 tan(15 degrees) times the distance of the camera. At the distance
-        // `distance`, this height is 1 unit.
+        // The height that an orthographic picture shows is 2 tan(15 degrees) times the distance of the camera. If the
+        // camera is at `distance`, this height is 1 unit.
         let distance = 0.5 / libm::tan(15.0_f64.to_radians());
         let camera = Camera::LookAt {
             from: [0.5, 0.5, distance],

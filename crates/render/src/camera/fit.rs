@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::{Projection, Side, Up, View};
 use crate::PictureError;
 
-/// Returns the outermost points: one in each of `directions`, and one in each direction of each coordinate axis. The
+/// Returns the outermost points: one for each of `directions`, and two for each coordinate axis (one at each end). The
 /// list is empty if there are no points.
 pub(super) fn outermost(
     directions: &[DVec3],
@@ -86,8 +86,8 @@ impl Fit {
         self.tangent.map_or(DVec2::ZERO, |_| self.half)
     }
 
-    /// Returns the points that determine the camera: the outermost points towards the clipping planes and the camera,
-    /// and along the coordinate axes.
+    /// Returns the points that determine the camera: the points that are outermost towards a clipping plane, towards
+    /// the camera, or along a coordinate axis.
     pub(super) fn extreme_points(&self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Vec<DVec3> {
         let ([x, y, z], slant) = (self.axes, self.slant());
         let directions = [
@@ -118,8 +118,8 @@ impl Fit {
         let (half, slant) = (self.half, self.slant());
         let (mut borders, mut front) = ([f64::NEG_INFINITY; 4], f64::NEG_INFINITY);
         if self.steady {
-            // Returns the largest value of x + t z of any point (x, y, z) of the bounding sphere. Here t is the slope
-            // of a clipping plane.
+            // Returns the maximum of x + t z over all points (x, y, z) of the bounding sphere. Here t is the slope of a
+            // clipping plane.
             let border = |t: f64| radius * (1.0 + t * t).sqrt();
             let [a, b] = [border(slant.x), border(slant.y)];
             (borders, front) = ([a, a, b, b], radius);

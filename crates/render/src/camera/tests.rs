@@ -42,7 +42,8 @@ fn a_fitted_camera_shows_all_points_inside_its_margins() {
                 let seen = view.screen_point(p).unwrap();
                 (min, max) = (min.min(seen.at), max.max(seen.at));
             });
-            // The points touch both horizontal or both vertical margins, and lie inside of the other two margins.
+            // The points touch the left and the right margin, or the upper and the lower margin. They do not overlap
+            // the other two margins.
             let margin = DVec2::new(20.0, 10.0);
             let (low, high) = (min - margin, DVec2::new(200.0, 100.0) - margin - max);
             assert!(low.min_element() > -1e-6 && high.min_element() > -1e-6);
@@ -265,7 +266,8 @@ fn a_camera_that_looks_at_a_point_has_the_same_upward_axis_in_sheets_and_turntab
     };
     let at = |view: Result<View, _>| view.unwrap().screen_point(DVec3::ONE).unwrap().at;
     let expected = at(View::new(&camera(Up::Z), &standing, size));
-    // A sheet computes one view for all scenes, from the extreme points of each scene.
+    // A contact sheet (several pictures in one image) computes one view for all scenes, from the extreme points of each
+    // scene.
     let extreme = camera(Up::Auto).extreme_points(&standing, size).unwrap();
     let each = |f: &mut dyn FnMut(DVec3)| extreme.iter().copied().for_each(f);
     assert!(extreme.len() <= 6);

@@ -106,15 +106,15 @@ fn is_visible(face_normal: DVec3, direction: DVec3) -> bool {
     face_normal.dot(direction) >= MIN_COSINE * face_normal.length()
 }
 
-/// The map from the positions of a mesh to the pixels of the figure.
+/// Converts the positions of a mesh to pixels of the figure.
 struct Frame {
     /// The directions to the right and upwards in the figure.
     axes: [DVec3; 2],
-    /// The middle of the faces. Positions are relative to the middle.
+    /// The middle of the faces, in scene units. Positions of the mesh are taken relative to this point.
     middle: DVec3,
     /// The number of pixels per scene unit.
     scale: f64,
-    /// The position of the middle of the faces in the figure.
+    /// The position in the figure at which the middle of the faces is drawn.
     center: DVec2,
     /// The height of the figure in pixels.
     height: f64,

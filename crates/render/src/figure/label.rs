@@ -12,7 +12,8 @@ use crate::Image;
 pub struct Label {
     /// The position in pixels from the top left corner.
     pub position: DVec2,
-    /// The text. Its [`Anchor`], the start or the middle of its baseline, determines the horizontal alignment.
+    /// The text. The [`Anchor`] of the text (the start or the middle of the baseline) determines the horizontal
+    /// alignment.
     pub text: Text,
 }
 

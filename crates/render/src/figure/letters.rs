@@ -167,8 +167,8 @@ fn clusters(text: &Text) -> Vec<Cluster> {
     clusters
 }
 
-/// Whether a character is invisible and has no width, for characters that are missing in all fonts. These characters
-/// join or separate other characters, or set their direction or variant.
+/// Whether a character that is missing in all fonts is left out, because it is invisible and has no width. These
+/// characters join or separate other characters, or set their direction or variant.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
@@ -274,8 +274,8 @@ impl Typeface {
     }
 }
 
-/// Returns the offset of a mark with this anchor from the base glyph with this index. Returns `None` if the font does
-/// not define the offset.
+/// Returns the offset of a mark from a base glyph. The mark has the given anchor, and `base` is the index of the base
+/// glyph. Returns `None` if the font does not define the offset.
 fn anchor_offset(
     (class, anchor): (Class, gpos::Anchor),
     base_anchors: AnchorMatrix,

@@ -135,7 +135,7 @@ impl Run {
     }
 }
 
-/// The point of a line of text that is placed at the position of the text.
+/// The point of the baseline that lies at the position of a text.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Anchor {
     /// The start of the baseline.
@@ -157,7 +157,7 @@ pub struct Text {
     /// The color and the width, in pixels, of an outline behind the letters. The outline makes the letters readable on
     /// any background.
     pub halo: Option<(Color, f64)>,
-    /// The point of the text that is placed at the position of the text.
+    /// The point of the baseline that lies at the position of the text.
     pub anchor: Anchor,
 }
 

@@ -47,8 +47,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns how many tiles an item in the lists of single tiles can touch. To bound the size of these lists, an item
-/// that touches more tiles is put in the list that all tiles read.
+/// Returns the maximum number of tiles that an item can touch if it is put in the list of each of these tiles. To bound
+/// the size of these lists, an item that touches more tiles is put in the list that all tiles read.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {
@@ -184,9 +184,9 @@ pub(super) struct Triangles {
 /// Some triangles of one part.
 struct Chunk {
     part: usize,
-    /// The index of the first triangle of the chunk, counted in its part.
+    /// The index of the first triangle of the chunk among the triangles of its part.
     first: usize,
-    /// The index of the first triangle of the chunk, counted through all parts.
+    /// The index of the first triangle of the chunk among the triangles of all parts.
     first_of_all: u32,
     bins: Bins,
     /// The pieces into which clipped triangles are divided. Each entry has the index of the triangle in the chunk, and
@@ -248,7 +248,7 @@ impl Triangles {
     }
 
     /// Calls `each` with every triangle that touches a tile, and possibly with other triangles. The arguments are the
-    /// index of the triangle, counted through all parts, and the projected triangle.
+    /// index of the triangle (among the triangles of all parts) and the projected triangle.
     pub(super) fn each_of_tile(
         &self,
         drawing: &Drawing,

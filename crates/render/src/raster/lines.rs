@@ -1,10 +1,10 @@
 //! Draws lines over triangles. Lines have a constant width and round ends, and are hidden where a triangle is in front
 //! of them.
 //!
-//! To decide whether a line is visible at a sample, its depth is compared with the depth of the surface. Both depths
-//! are taken at the point of the line's axis that is nearest to the sample. The depth of the surface at this point is
-//! the depth of the plane of the triangle that is visible at the sample. Therefore a thick line on a slanted surface is
-//! visible in its full width, although one side of the line is behind the surface.
+//! To decide whether a line is visible at a sample, the depth of the line is compared with the depth of the surface.
+//! Both depths are taken at the point of the line's axis that is nearest to the sample. The depth of the surface at
+//! this point is the depth of the plane of the triangle that is visible at the sample. Therefore a thick line on a
+//! slanted surface is visible in its full width, although one side of the line is behind the surface.
 //!
 //! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface.
 

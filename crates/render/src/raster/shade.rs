@@ -157,8 +157,8 @@ impl<'a> Shader<'a> {
         (part, (id - self.firsts[part][0]) as usize)
     }
 
-    /// Returns the index of the face of a triangle (counted through all parts), a point of the triangle, and the normal
-    /// of the triangle. The normal can have any length.
+    /// For a triangle, returns the index of its face (among the faces of all parts), one of its points, and its normal.
+    /// The normal can have any length.
     pub(super) fn plane(&self, id: u32) -> (u32, DVec3, DVec3) {
         let (part, triangle) = self.locate(id);
         let p = &self.drawing.parts[part];

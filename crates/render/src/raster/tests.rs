@@ -47,7 +47,7 @@ fn plain() -> Look {
     }
 }
 
-/// Returns the view of an orthographic camera in front of the plane z = 0, whose picture is `height` units high.
+/// Returns the view of an orthographic camera in front of the plane z = 0. The picture is `height` units high.
 fn front_view(height: f64, size: [u32; 2]) -> View {
     // At this distance, the picture of an orthographic `LookAt` is `height` units high (see the documentation of
     // `LookAt`).
@@ -92,8 +92,8 @@ fn samples_are_in_different_rows_and_columns() {
 
 #[test]
 fn triangles_that_fill_a_square_cover_every_sample_once() {
-    // The grid of triangles is larger than the tile, and the inner points of the grid are moved. Small cells test the
-    // 32-bit arithmetic, and large cells test the 64-bit arithmetic.
+    // The grid of triangles is larger than the tile, and the inner points of the grid are moved. Grids with small cells
+    // test the 32-bit arithmetic, and grids with large cells test the 64-bit arithmetic.
     for (seed, cells) in [(1, 40), (2, 7), (3, 2)] {
         let mut seed = seed;
         let tile_size = GRID * i32::try_from(TILE).unwrap();
@@ -531,7 +531,7 @@ fn triangles_are_clipped_behind_the_camera() {
 #[test]
 fn the_openness_at_the_bottom_of_a_cup_is_that_of_its_opening() {
     // The scene is an open cylinder of radius 1 with a bottom. The opening has the radius r and the distance h from the
-    // bottom. Seen from the middle of the bottom, it fills the fraction r² / (r² + h²) of the cosine-weighted
+    // bottom. Seen from the middle of the bottom, the opening fills the fraction r² / (r² + h²) of the cosine-weighted
     // hemisphere.
     let n_sides = 64;
     for height in [0.5, 1.0, 2.0] {

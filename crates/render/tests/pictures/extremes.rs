@@ -31,7 +31,7 @@ fn draw(mesh: Mesh, camera: &Camera, style: &Style, size: [u32; 2]) -> Image {
     picture.image
 }
 
-/// Returns an orthographic camera in front of the scene, whose picture is `height` units high.
+/// Returns an orthographic camera in front of the scene. The picture is `height` units high.
 fn front(height: f64) -> Camera {
     // At this distance, the picture of an orthographic `LookAt` is `height` units high (see the documentation of
     // `LookAt`).

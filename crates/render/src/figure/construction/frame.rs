@@ -3,8 +3,8 @@
 use bezier::Curve;
 use glam::DVec2;
 
-/// The map from the plane of a curve to the pixels of a figure. The scale is the same in both axes. In the plane of the
-/// curve, y points upwards.
+/// Converts points in the plane of a curve to pixels of a figure. The scale is the same in both axes. In the plane of
+/// the curve, y points upwards.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     /// The center of the bounding box of all points.

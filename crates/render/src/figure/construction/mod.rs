@@ -11,7 +11,7 @@
 //! ```
 //!
 //! The legs of a level are the line segments between its consecutive points. Each point of the next level divides a leg
-//! in the ratio t : 1 - t (de Casteljau, "Outillages méthodes calcul", 1959). The points have the names `b_i^r` of
+//! in the ratio t : 1 - t (de Casteljau, "Outillages méthodes calcul", 1959). The names `b_i^r` of the points are from
 //! Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §4.2.
 
 mod frame;

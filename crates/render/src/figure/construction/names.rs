@@ -14,12 +14,12 @@ pub(super) const RADIUS: f64 = 4.2;
 /// The font size of names, in pixels at zoom 1.
 pub(super) const FONT_SIZE: f64 = 19.0;
 
-/// The maximum number of control points of a curve for which every control point has a name. If a curve has more
-/// control points, only the first and the last have names.
+/// If a curve has at most this number of control points, all control points have names. Otherwise, only the first and
+/// the last control point have names.
 const MAX_NAMED: usize = 12;
 
-/// The maximum degree of a curve for which the points of the levels have names. In small panels, the points of the
-/// levels never have names.
+/// The points of the levels have names only if the degree of the curve is at most this number. In small panels, the
+/// points of the levels never have names.
 const MAX_DEGREE: usize = 3;
 
 /// Writes names, and records which points have names.

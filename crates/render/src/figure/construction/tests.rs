@@ -71,7 +71,7 @@ fn every_point_of_every_level_is_drawn_at_its_position() {
             let drawn = circles(&xml);
             let levels = curve.levels(t);
             assert_eq!(drawn.len(), levels.iter().map(Vec::len).sum::<usize>());
-            // The expected map is computed from two control points that differ in both coordinates.
+            // Two control points that differ in both coordinates determine the expected scale of the figure.
             let points = curve.points();
             let other = (1..points.len())
                 .find(|&i| (points[i] - points[0]).min_element() != 0.0)

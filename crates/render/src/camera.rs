@@ -317,8 +317,8 @@ impl View {
     ///
     /// # Errors
     ///
-    /// Returns [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or if `from` and
-    /// `to` are equal, so that the camera has no direction.
+    /// Returns [`PictureError::Camera`] if a number of the camera is out of its range or not finite. Returns the same
+    /// error if `from` and `to` are equal, because the camera then has no direction.
     pub fn new(
         camera: &Camera,
         points: &impl Fn(&mut dyn FnMut(DVec3)),

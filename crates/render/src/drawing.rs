@@ -41,14 +41,15 @@ pub struct Part<'a> {
     /// Linear red, green and blue of the front, from 0 to 1. The color of the front is multiplied by the color of the
     /// material.
     pub colors: Channel<'a>,
-    /// The highlight color of each face; empty if there are no highlights. Highlight colors are blended by their alpha
-    /// over all other colors, on both sides of the face.
+    /// The highlight color of each face; empty if there are no highlights. Highlight colors are blended over all other
+    /// colors, according to the alpha of the highlight color, on both sides of the face.
     pub highlights: Vec<[f32; 4]>,
     /// The materials.
     pub materials: Vec<Surface>,
     /// The index in `materials` for each face. The list is empty if all faces have the first material.
     pub material_of_face: Vec<u32>,
-    /// The sets of texture coordinates of the corners, with v upwards, for the textures of the materials.
+    /// The sets of texture coordinates that the textures of the materials use. Each set has the coordinates (u, v) of
+    /// the corners, and v points upwards.
     pub uvs: Vec<Cow<'a, [DVec2]>>,
     /// The color of the back of faces. If `None`, the back of a face has the color of the front.
     pub back: Option<[f32; 3]>,

@@ -237,8 +237,8 @@ fn jpeg_decoder(bytes: &[u8]) -> Result<JpegDecoder<ZCursor<&[u8]>>, PictureErro
 
 /// Returns the width and the height of a JPEG file whose headers have been decoded.
 fn jpeg_size(decoder: &JpegDecoder<ZCursor<&[u8]>>) -> [u32; 2] {
-    // If the decoder knows no size, both sides are 0, and the caller refuses the image. The JPEG format limits a side
-    // to 65535 pixels.
+    // If the decoder does not know the size, the result is 0 x 0, and the caller refuses the image. The JPEG format
+    // limits a side to 65535 pixels.
     let info = decoder.info();
     info.map_or([0; 2], |i| [i.width, i.height].map(u32::from))
 }

@@ -81,8 +81,8 @@ pub enum Statistic {
 pub enum Measured {
     /// A whole number.
     Whole(i64),
-    /// A number. If there is nothing to measure, the number is infinite, for example the distance to a mesh without
-    /// faces.
+    /// A number. The number is infinite if there is nothing to measure. For example, the distance to a mesh without
+    /// faces is infinite.
     Number(f64),
     /// A string.
     Text(String),

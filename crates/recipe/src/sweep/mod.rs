@@ -17,7 +17,8 @@
 //! declares. Both [`read_sweep`] and [`Sweep::grid`] report all errors at once. `over` and `zip` contain lists of
 //! parameter values. The lists of `zip` have the same length, and the n-th values of all lists of `zip` form a row.
 //! Each cell stands for one run of the recipe. The cells are all combinations of one value from each list of `over` and
-//! one row of `zip`. From cell to cell, the row of `zip` changes fastest, then the value from the last list of `over`.
+//! one row of `zip`. From one cell to the next, the row of `zip` changes fastest, then the value from the last list of
+//! `over`.
 
 mod metric;
 mod values;
@@ -49,9 +50,9 @@ pub struct Sweep {
     pub recipe: String,
     /// The span of the path of the recipe.
     pub recipe_span: Span,
-    /// Whether the recipe's expectations must hold in every cell.
+    /// Whether the recipe's expectations must hold in every cell (run of the recipe).
     pub expects: bool,
-    /// The metrics that are recorded for each cell, with their spans.
+    /// The metrics that are recorded for each cell (run of the recipe). Each metric has its span.
     pub keep: Vec<(Metric, Span)>,
     over: Vec<Entry>,
     zip: Vec<Entry>,
@@ -66,20 +67,20 @@ struct Entry {
     value: Value,
 }
 
-/// The cells of a sweep.
+/// The cells of a sweep. Each cell stands for one run of the recipe.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
     /// The parameters that change. Those of `over` come first, then those of `zip`, both in the order of the text.
     pub parameters: Vec<String>,
     /// The axes: one for each parameter of `over`, and one for all parameters of `zip`. The last axis changes fastest.
     pub axes: Vec<Axis>,
-    /// For each cell, the values of `parameters`.
+    /// For each cell (run of the recipe), the values of `parameters`.
     pub cells: Vec<Vec<Setting>>,
-    /// The parameters that have the same value in every cell.
+    /// The parameters that have the same value in every run.
     pub set: Vec<(String, Setting)>,
 }
 
-/// A group of parameters whose values change together from cell to cell.
+/// A group of parameters whose values change together from run to run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Axis {
     /// The range of the indices that these parameters have in [`Grid::parameters`].
@@ -216,8 +217,8 @@ fn entries(map: Option<&Value>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Entry>
 }
 
 impl Sweep {
-    /// Checks the values against the parameters of the recipe and returns the cells. `folder` is the folder of the
-    /// sweep: paths among the values are relative to it.
+    /// Checks the values against the parameters of the recipe, and returns the cells (runs of the recipe). `folder` is
+    /// the folder of the sweep: paths among the values are relative to it.
     ///
     /// # Errors
     ///

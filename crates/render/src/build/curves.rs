@@ -64,8 +64,8 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Adds the edges of a tessellated surface. Must be called before the faces of the surface are added, because their
-    /// indices are assumed to start at `n_faces`.
+    /// Adds the edges of a tessellated surface. Must be called before the faces of the surface are added, because this
+    /// function assumes that the indices of the faces start at `n_faces`.
     fn grid(&mut self, surface: &Tessellation, lines: &Lines) {
         let mut edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
         for (f, corners) in (self.n_faces..).zip(surface.faces()) {

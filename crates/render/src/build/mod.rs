@@ -24,7 +24,7 @@ pub struct Overlays {
     pub highlights: Vec<Highlight>,
     /// Numbers that are shown as colors, with at most one coloring for each object.
     pub colorings: Vec<Coloring>,
-    /// Lines and dots that belong to no element. Strokes are drawn on top of all other lines and dots.
+    /// Lines and dots that do not belong to an element of a mesh. Strokes are drawn on top of all other lines and dots.
     pub strokes: Vec<Stroke>,
     /// Labels at points of the scene.
     pub labels: Vec<Label>,

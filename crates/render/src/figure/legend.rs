@@ -311,7 +311,7 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
         .collect()
 }
 
-/// Formats the number `digits` times 10 to the power `exponent`. `largest` is the largest absolute value of the axis.
+/// Formats the number `digits` times 10 to the power `exponent`. `largest` is the largest absolute value on the axis.
 fn tick_label(digits: i64, exponent: i32, largest: f64) -> String {
     let text = format!("{digits}e{exponent}");
     let Ok(value) = text.parse::<f64>() else {

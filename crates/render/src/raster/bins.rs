@@ -88,8 +88,8 @@ pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) 
     (lists + n_tasks * temporary) as u64
 }
 
-/// Returns the maximum number of bytes for the pieces of clipped triangles and for their lists, including the temporary
-/// memory of sorting.
+/// Returns the maximum number of bytes for the pieces of clipped triangles and for the lists of pieces. The temporary
+/// memory of sorting is included.
 pub(super) fn clipped_bytes(drawing: &Drawing, view: &View) -> u64 {
     let n_pieces: u64 = drawing.parts.iter().map(|part| n_pieces(part, view)).sum();
     // While a vector grows, its old and its new memory together take up to three times the memory of its elements.
@@ -325,8 +325,8 @@ impl Lines {
         Ok(Self { projected, chunks })
     }
 
-    /// Returns the lines whose bounding boxes touch a tile, and possibly other lines, in ascending order, with their
-    /// indices.
+    /// Returns the lines whose bounding boxes touch a tile, and possibly other lines. Each line comes with its index,
+    /// and the indices are in ascending order.
     pub(super) fn of_tile(&self, tile: usize) -> impl Iterator<Item = (u32, &ProjectedLine)> {
         let mut lines: Vec<u32> = Vec::new();
         for (first, bins) in &self.chunks {

@@ -1,9 +1,9 @@
 //! Computes ambient occlusion: surfaces are darker where less of their surroundings is visible from them.
 //!
-//! Depth maps are drawn from directions that are spread evenly over the sphere. Each map stores the nearest and the
-//! farthest depth, so it serves two opposite directions. The openness of a point is the weighted mean of its visibility
-//! in all maps. The openness does not depend on the camera and has no noise. Surfaces with an alpha below one half, or
-//! with a texture that is not opaque, do not reduce the openness.
+//! Depth maps are drawn from directions that are spread evenly over the sphere. Each depth map stores the nearest and
+//! the farthest depth, so it serves two opposite directions. The openness of a point is the weighted mean of its
+//! visibility in all depth maps. The openness does not depend on the camera and has no noise. Surfaces with an alpha
+//! below one half, or with a texture that is not opaque, do not reduce the openness.
 
 use std::borrow::Cow;
 
@@ -13,19 +13,19 @@ use rayon::prelude::*;
 use crate::PictureError;
 use crate::drawing::{Drawing, Part, Surface};
 
-/// The number of maps, each for two opposite directions.
+/// The number of depth maps. Each depth map serves two opposite directions.
 const MAPS: usize = 48;
-/// The maximum width and height of a map in texels.
+/// The maximum width and height of a depth map in texels.
 const MAX_SIDE: u32 = 256;
-/// The minimum width and height of a map in texels.
+/// The minimum width and height of a depth map in texels.
 const MIN_SIDE: u32 = 64;
 
-/// Returns the width and height of a map in texels, for a picture of this size.
+/// Returns the width and height of a depth map in texels, for a picture of this size.
 fn side([width, height]: [u32; 2]) -> u32 {
     (width.max(height) / 3).clamp(MIN_SIDE, MAX_SIDE)
 }
 
-/// Returns the number of bytes of all maps for a picture of this size.
+/// Returns the number of bytes of all depth maps for a picture of this size.
 pub(super) fn bytes(size: [u32; 2]) -> u64 {
     8 * MAPS as u64 * u64::from(side(size)) * u64::from(side(size))
 }
@@ -42,8 +42,8 @@ pub(super) struct Occlusion {
 struct Map {
     /// The directions in which columns, rows, and depth increase.
     axes: [Vec3; 3],
-    /// For each texel, the largest depth in the direction of the map and the largest depth in the opposite direction.
-    /// The largest depth in the opposite direction is the negative of the smallest depth.
+    /// For each texel, the largest depth in the direction of the depth map, and the largest depth in the opposite
+    /// direction. The largest depth in the opposite direction is the negative of the smallest depth.
     depths: Vec<[f32; 2]>,
 }
 
@@ -71,8 +71,8 @@ impl Occlusion {
         };
         let (center, radius) = crate::camera::sphere(&all_points);
         let side = side(size) as usize;
-        // The bounding sphere of the scene is `side - 2` texels wide, so that the texels at the border of a map stay
-        // empty.
+        // The bounding sphere of the scene is `side - 2` texels wide, so that the texels at the border of a depth map
+        // stay empty.
         let texel = 2.0 * radius / (side - 2) as f64;
         let parts = drawing.parts.iter();
         let to_draw: Vec<_> = parts
@@ -168,9 +168,9 @@ impl Occlusion {
 /// texels whose middles the triangle covers.
 const SMALL_EDGE: f64 = 0.85;
 
-/// Returns the triangles of a part that are drawn into maps, and whether the points of the part are drawn too.
-/// Triangles whose edges are all shorter than `length` are left out, because the points of the part are drawn instead.
-/// If the part has transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
+/// Returns the triangles of a part that are drawn into the depth maps, and whether the points of the part are drawn
+/// too. Triangles whose edges are all shorter than `length` are left out, because the points of the part are drawn
+/// instead. If the part has transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
 fn triangles_to_draw<'a>(part: &'a Part, length: f64) -> (Cow<'a, [[u32; 3]]>, bool) {
     let has_transparent = part.materials.iter().any(Surface::is_transparent);
     let is_drawn = |&i: &usize| {
@@ -207,13 +207,13 @@ const STEPS: i32 = 256;
 /// A point in a depth map.
 #[derive(Clone, Copy)]
 struct MapPoint {
-    /// The distances from the corner of the map, in grid steps.
+    /// The distances from the corner of the depth map, in grid steps.
     at: [i32; 2],
     depth: f32,
 }
 
-/// Converts texels to grid steps. Points are inside the map, unless their coordinates are so large that the radius of
-/// the bounding sphere overflows.
+/// Converts texels to grid steps. A point is outside of the depth map only if its coordinates are so large that the
+/// radius of the bounding sphere overflows.
 fn step(texels: f32) -> i32 {
     let max = MAX_SIDE as f32;
     #[expect(

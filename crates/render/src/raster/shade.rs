@@ -168,7 +168,7 @@ impl<'a> Shader<'a> {
         (face, a, (b - a).cross(c - a))
     }
 
-    /// Returns the color of a line, from an entry of `Tile::lines`.
+    /// Returns the color of the line that an entry of `Tile::lines` refers to.
     pub(super) fn line_color(&self, entry: u32) -> [f32; 4] {
         let line = &self.drawing.lines[((entry - 2) / 2) as usize];
         let [r, g, b, a] = line.color;

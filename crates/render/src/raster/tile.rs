@@ -237,7 +237,7 @@ pub(super) fn mask_of(mut is_covered: impl FnMut(usize) -> bool) -> u16 {
 /// The data for filling a triangle.
 struct Setup {
     edges: [Edge; 3],
-    /// The part of the bounding box in the tile, in pixels: left, top, right and bottom, inclusive.
+    /// The part of the bounding box that lies in the tile: left, top, right and bottom, in pixels, inclusive.
     limits: [u32; 4],
     /// The first corner.
     origin: [i64; 2],

@@ -31,17 +31,17 @@ use self::frame::Frame;
 use super::svg::{Color, Font, Paint, Run, Svg};
 use crate::PictureError;
 
-/// The maximum number of control points of a curve that is drawn.
+/// The maximum number of control points of a curve in a figure.
 pub const MAX_DRAWN: usize = 256;
 
-/// The maximum number of control points of a curve whose levels are drawn.
+/// The maximum number of control points of a curve that is drawn together with its levels.
 pub const MAX_CONSTRUCTED: usize = 64;
 
 /// The maximum number of panels of a figure.
 pub const MAX_PANELS: usize = 256;
 
-/// The maximum number of points of all panels of a figure. The levels of a curve with n control points have n (n + 1) /
-/// 2 points.
+/// The maximum number of points of all panels of a figure. If a curve has n control points, its levels have n (n + 1) /
+/// 2 points in total.
 pub const MAX_POINTS: usize = 1 << 16;
 
 /// The maximum width of a figure, in pixels.

@@ -7,7 +7,7 @@
 #   .ci/aarch64.sh [FOLDER]     FOLDER keeps downloads and builds. Defaults to target/ci/aarch64.
 #
 # If target/ci/scenes exists, the files that the scenes write are compared with the files in this folder. Some pictures
-# of the reference are compared with the pictures in the repository.
+# of the reference of operations are drawn again and compared with those in the repository.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 work=$(mkdir -p "${1:-target/ci/aarch64}" && cd "${1:-target/ci/aarch64}" && pwd)
@@ -19,7 +19,7 @@ skip() { echo "the digests on 64-bit ARM are not compared: $*"; exit 0; }
 command -v apt-get > /dev/null || skip "apt-get is missing"
 [ "$(id -u)" = 0 ] || skip "installing packages requires root"
 
-# The script uses its own package lists, for both processors, and leaves those of the machine unchanged.
+# The script uses its own package lists, for both processors, and does not change the package lists of the machine.
 mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/debs"
 cat > "$work/apt.conf" << END
 Dir::State::lists "$work/lists";

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the book in target/book, from the chapters in book/src and with a page for each operation from ops/README.md.
+# Builds the book in target/book from the chapters in book/src. Adds a page for each operation, made from ops/README.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=target/book-source

@@ -1,5 +1,5 @@
-// Adds a link below each whole recipe of the book, which opens the recipe in the page for browsers. The page and
-// `share.js` are in the folder `page` of the book, if they were built before the book.
+// Below each whole recipe of the book, adds a link that opens the recipe in the page for browsers. If the page was
+// built before the book, the page and its script `share.js` are in the folder `page` of the book.
 (async () => {
     const page = new URL("page/", document.currentScript.src);
     const recipes = document.querySelectorAll("code.language-ron:not(.step):not(.sweep)");

@@ -115,7 +115,7 @@ def default(schema: Any) -> str | None:
 
 
 def sentence(text: str) -> str:
-    """Joins the lines of a paragraph, and converts its values to Python."""
+    """Joins the lines of a paragraph, and writes the code in it as Python."""
     text = " ".join(text.split()).replace("Without `on`, the step", "Without `on`, a method of a scene")
     return code_in_python(without_steps(text), "``")
 
@@ -497,7 +497,7 @@ def outside_recipes(text: str) -> str:
 
 
 def union(kinds: Iterable[str]) -> str:
-    """Returns the union of Python types. All `Literal` types are merged to one."""
+    """Returns the union of Python types. All `Literal` types are merged into one."""
     parts = list(dict.fromkeys(part for kind in kinds for part in split_union(kind)))
     words = [part.removeprefix("Literal[").removesuffix("]") for part in parts if part.startswith("Literal[")]
     named = list(dict.fromkeys(word for part in words for word in part.split(", ")))

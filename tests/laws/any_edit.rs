@@ -36,7 +36,7 @@ impl EditCode {
         }
     }
 
-    /// Whether the documentation of the edit says that it can connect two vertices by a second edge.
+    /// Whether the edit, according to its documentation, can connect two vertices by a second edge.
     pub(crate) const fn can_duplicate_edges(self) -> bool {
         matches!(self.kind, SPLIT | SYMMETRIZE)
     }
@@ -386,8 +386,8 @@ fn around(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     }
 }
 
-/// Returns the first half-edge without a face. The search starts at `h`, follows the order of ids, and continues at the
-/// lowest id after the highest id. If the mesh has no hole, returns `h`.
+/// Returns the first half-edge without a face. The search starts at `h` and follows the order of ids. After the highest
+/// id, it continues with the lowest id. If the mesh has no hole, returns `h`.
 fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
     let n = mesh.domain_len(Domain::Corner);
     (0..n)
@@ -397,8 +397,7 @@ fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
 }
 
 /// Applies the edit and checks the guarantees of every edit. The mesh stays valid. If the mesh has no duplicate edges,
-/// the edit creates no duplicate edges, unless the documentation of the edit says that it can. If the edit is refused,
-/// nothing changes.
+/// the edit creates no duplicate edges, unless its documentation allows this. If the edit is refused, nothing changes.
 ///
 /// # Panics
 ///

@@ -31,8 +31,8 @@ const NUMBERS: &[&str] = &[
     "9223372036854775807",
 ];
 
-/// The memory budget in bytes. A case is skipped if its plan predicts meshes that exceed the budget, so that meshes
-/// stay small.
+/// The memory budget in bytes. To keep meshes small, a case is skipped if its plan predicts meshes that exceed this
+/// budget.
 const BUDGET: u64 = 1 << 20;
 
 /// `parameters` is a sample of the parameters of an operation. Returns this sample, and variants of it. In each

@@ -1,6 +1,6 @@
-//! Tests that `check` predicts which steps a run will refuse, and which data steps will lose, such as attributes that a
-//! file format cannot store. One test runs small recipes: each makes a shape or loads a file, applies at most one
-//! operation, and saves the result. The other test runs the recipes in `scenes/`.
+//! Tests that `check` predicts the steps that a run will refuse, and the data that the steps will lose. For example, a
+//! file format cannot store some attributes. One test runs small recipes: each makes a shape or loads a file, applies
+//! at most one operation, and saves the result. The other test runs the recipes in `scenes/`.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! Checks how the time of operations and expectations grows with the mesh. On a mesh with twice as many faces, an
 //! operation must take at most 2.3 times as long.
 //!
-//! These tests measure times, because no count shows how much work was done: the number of progress reports does not
-//! depend on the size of the mesh, and a quadratic search allocates no memory. The tests run only on request, and take
-//! about ten minutes:
+//! These tests measure times, because no count shows how much work was done. For example, the number of progress
+//! reports does not depend on the size of the mesh, and a quadratic search allocates no memory. The tests run only on
+//! request, and take about ten minutes:
 //!
 //! ```text
 //! MALLOC_ARENA_MAX=1 MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=100000000000 \
@@ -15,9 +15,8 @@
 //!
 //! Each measured time is the median of the processor times of several runs on one thread, so that other programs hardly
 //! affect it. The time on a mesh is compared with the time on a mesh that is four times as large (doubled twice). If
-//! the time grows too much, the same two meshes are measured again. If it still grows too much, the measurement is
-//! repeated with two meshes that are four times as large, because the time jumps when the data no longer fit in a
-//! cache.
+//! the time grows too much, the same two meshes are measured again. If it still grows too much, two meshes that are
+//! four times as large are compared, because the time jumps once when the data no longer fit in a cache.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -44,10 +43,11 @@ const MAX_GROWTH: f64 = 2.3 * 2.3;
 /// The minimum time of a measurement. Meshes are enlarged until the work takes this long.
 const LONG_ENOUGH: Duration = Duration::from_millis(4);
 
-/// The maximum time for the first mesh that is measured. If the work takes longer, the test fails.
+/// The maximum time for the smaller of the first two compared meshes. If the work takes longer, the test fails.
 const TOO_LONG: Duration = Duration::from_secs(20);
 
-/// Numbers of faces: of the first mesh that is measured, and the maximum for the smaller one of two compared meshes.
+/// Two numbers of faces. The first measured mesh has the first number of faces. It is enlarged to at most the second
+/// number of faces.
 const SIZES: [usize; 2] = [1000, 64_000];
 
 /// Operations that are not tested, because their samples fit no generated scene, or because their work does not grow
@@ -83,7 +83,7 @@ const SELECTIONS: &[&str] = &[
     "TagFaces(name: \"new\", faces: Component(All))",
 ];
 
-/// The name of a scene with two faces of many corners.
+/// The name of a scene whose mesh has two faces with many corners.
 const LARGE_FACES: &str = "a cylinder with caps of many corners";
 
 /// Creates a mesh of about the given number of faces.

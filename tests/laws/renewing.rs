@@ -51,8 +51,8 @@ fn with_other_digit(number: &str) -> String {
     format!("{rest}{}", (digit + 3) % 10)
 }
 
-/// Collects the spans of the integers in the fields `eq` of expectations. Numbers that come from a parameter, areas,
-/// volumes, and expectations that also have `min` or `max` are skipped.
+/// Collects the spans of the integers in the fields `eq` of expectations. Skips areas, volumes, numbers that come from
+/// a parameter, and expectations that also have `min` or `max`.
 fn collect_recorded(items: &[Value], numbers: &mut Vec<Span>) {
     for item in items {
         if item.name().is_none() {

@@ -1,5 +1,5 @@
-// Measures the time of Pixar's OpenSubdiv for uniform refinement to the finest level: topology and positions,
-// with one thread and positions in double precision.
+// Measures how long Pixar's OpenSubdiv takes to refine meshes uniformly: the topology, and the positions in double
+// precision. OpenSubdiv uses one thread.
 //
 //     g++ -std=c++17 -O2 bench.cpp -losdCPU -o bench && ./bench
 //
@@ -70,7 +70,7 @@ Cage icosahedron() {
     return cage;
 }
 
-/// Returns a torus of m by n quads. Every `every`-th quad is cut into two triangles.
+/// Returns a torus of m by n quads. One of every `every` quads is cut into two triangles.
 Cage torus(int m, int n, int every) {
     double const turn = 6.283185307179586;
     Cage cage;

@@ -58,7 +58,8 @@ def part():
     for hole in range(HOLES):
         first = hole * CELL
         angles = 2 * numpy.pi * ((first + numpy.arange(CELL + 1)) % AROUND) / AROUND
-        # The border of the cell, counter-clockwise from its inner corner at the first angle.
+        # The border of the part of the ring around one hole, counter-clockwise from the inner corner at the first
+        # angle.
         border = [(r, angles[0]) for r in radii[:-1]] + [(OUTER, a) for a in angles[:-1]]
         border += [(r, angles[-1]) for r in radii[:0:-1]] + [(INNER, a) for a in angles[:0:-1]]
         border = numpy.array([(r * numpy.cos(a), r * numpy.sin(a)) for r, a in border])

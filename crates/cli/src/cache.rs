@@ -32,7 +32,7 @@ pub(crate) fn folder(args: &CacheFolder) -> anyhow::Result<PathBuf> {
     Ok(user.cache_dir().join("meshwright"))
 }
 
-/// Returns cache settings for a run after which the final scene is not needed in memory.
+/// Returns cache settings for a run whose final scene is not needed.
 pub(crate) fn caching_for<'a>(cache: &'a Cache, recipe: &'a Path) -> Caching<'a> {
     Caching {
         cache,
@@ -46,8 +46,8 @@ pub(crate) fn warning(problem: &str) -> String {
     format!("warning: {problem}; the program continues without the cache\n")
 }
 
-/// Returns the version of the program and the digest of its executable file. The cache uses only results of the same
-/// version and executable file, because a different build can contain a changed operation.
+/// Returns the version of the program and the digest of its executable file. The cache uses a result only if the same
+/// version and the same executable file computed it. A different build can contain a changed operation.
 fn program() -> String {
     let version = env!("CARGO_PKG_VERSION");
     let file = std::env::current_exe().and_then(std::fs::read);

@@ -18,13 +18,13 @@ pub(crate) enum FileKind {
     Mesh,
 }
 
-/// The maximum size of a sweep, in bytes. Sweeps are short. Therefore, a larger file is assumed to be a recipe, without
-/// reading its contents.
+/// The maximum size of a sweep file, in bytes. A larger file is not read, but assumed to be a recipe, because sweep
+/// files are short.
 const MAX_SWEEP: u64 = 1 << 20;
 
 /// Checks the kind of a file by its extension. Recipes and sweeps share an extension, so they are distinguished by
 /// their contents. If a recipe or a sweep is expected, a file with an unknown extension must begin like a RON file. If
-/// the file does not exist or its kind cannot be determined, this check succeeds, because the command reports the error
+/// the file does not exist or its kind cannot be determined, this check succeeds. The command then reports the error
 /// when it reads the file.
 ///
 /// # Errors

@@ -55,8 +55,8 @@ pub fn run(registry: Registry) -> ExitCode {
 
 /// Returns the recipes that `meshwright test PATHS` runs, where `paths` are the paths of recipes and folders. The
 /// result includes recipes that cannot be read. A recipe is left out if it has neither expectations nor a step with the
-/// field `refused`. A recipe that another of these recipes calls is also left out, unless `paths` contains its own
-/// path.
+/// field `refused`. A recipe is also left out if one of the other recipes calls it, unless `paths` names the recipe
+/// itself.
 ///
 /// # Errors
 ///

@@ -8,8 +8,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. Runs that show no progress,
-/// such as runs of a batch, use this flag as their listener.
+/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. A run that shows no progress,
+/// such as a run of a batch, takes this flag as its progress listener.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
 /// Installs the handler of Ctrl-C: the first Ctrl-C cancels the run cleanly, and the second Ctrl-C ends the program

@@ -331,7 +331,7 @@ pub(crate) fn write_temporary(path: &Path, bytes: &[u8]) -> Result<Box<dyn NewFi
         Disk.make_folder(folder_of(path))?;
         let mut file = Disk.create(path)?;
         file.write_all(bytes)?;
-        // Some file systems report a full disk only when syncing.
+        // Some file systems report a full disk only when a file is synced.
         file.sync()?;
         Ok(file)
     };

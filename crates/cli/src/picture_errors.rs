@@ -48,8 +48,7 @@ const MAX_FILE_SIZE: u64 = 64 << 20;
 /// Draws the failures of a run if `--picture-errors` is given, and keeps a list of the pictures.
 #[derive(Default)]
 pub(crate) struct Pictures {
-    /// The first part of the paths of all pictures, to which endings such as `-error-1.png` are appended. If `None`, no
-    /// pictures are drawn.
+    /// The path of a picture is this path with an ending such as `-error-1.png`. If `None`, no pictures are drawn.
     base: Option<PathBuf>,
     /// The memory budget of each picture, in bytes.
     budget: u64,

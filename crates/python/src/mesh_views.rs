@@ -95,7 +95,7 @@ impl Mesh {
     }
 
     /// Returns the domain, the name, the type of the values and the rule of each attribute. The domain is the kind of
-    /// elements that have the attribute. Edits change the values by the rule.
+    /// elements that have the attribute. The rule says how edits compute new values.
     fn attributes(&self) -> Vec<(String, String, &'static str, &'static str)> {
         let columns = self.0.attributes().iter();
         let described = columns.map(|(domain, column)| {

@@ -26,11 +26,11 @@ pub(crate) struct SelectArgs {
     /// Select only elements of the object with this name; can be repeated
     #[arg(long, value_name = "OBJECT")]
     pub(crate) on: Vec<String>,
-    /// For a recipe, use the scene after the step or call with this id
+    /// For a recipe, use the scene after the step (or `Call`) with this id
     #[arg(long, value_name = "ID", conflicts_with = "before")]
     pub(crate) after: Option<String>,
-    /// For a recipe, use the scene before the step or call with this id; a random selection chooses the same elements
-    /// as it would in that step
+    /// For a recipe, use the scene before the step (or `Call`) with this id; a random selection chooses the same
+    /// elements as it would in that step
     #[arg(long, value_name = "ID")]
     pub(crate) before: Option<String>,
     #[command(flatten)]

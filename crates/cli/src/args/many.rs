@@ -114,8 +114,8 @@ pub(crate) struct BatchArgs {
     /// Also write the results as JUnit XML, with a test case for each input file
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
-    /// Divide the input files into N parts, and process only part I. The part of a file is determined only by the path
-    /// of the file and, with --sets, by the number of the parameter set
+    /// Divide the input files into N parts, and process only part I. Only the path of a file (with --sets, also the
+    /// number of the parameter set) decides which part processes the file
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
     /// Estimate the memory that each of N parts of the batch needs, and run nothing

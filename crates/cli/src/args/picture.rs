@@ -101,13 +101,13 @@ pub(crate) struct PictureArgs {
     /// Number of views in each row; on a sheet, the number of files in each row
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) columns: Option<u32>,
-    /// For a recipe, draw the scene after the step or call with this id
+    /// For a recipe, draw the scene after the step (or `Call`) with this id
     #[arg(long, value_name = "ID", conflicts_with_all = ["before", "change"])]
     pub(crate) after: Option<String>,
-    /// For a recipe, draw the scene before the step or call with this id
+    /// For a recipe, draw the scene before the step (or `Call`) with this id
     #[arg(long, value_name = "ID", conflicts_with = "change")]
     pub(crate) before: Option<String>,
-    /// For a recipe, draw the scenes before and after the step or call with this id, side by side
+    /// For a recipe, draw two scenes side by side: before and after the step (or `Call`) with this id
     #[arg(long, value_name = "ID", conflicts_with = "sheet")]
     pub(crate) change: Option<String>,
     #[command(flatten)]

@@ -51,7 +51,7 @@ impl ReadArgs {
     }
 }
 
-/// Parses the name of a policy, which is the same as in recipes, but can be in lower or upper case. Each name is a
+/// Parses the name of a policy. The names are the same as in recipes, but can be in lower or upper case. Each name is a
 /// single word.
 pub(super) fn policy<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     let mut name = text.to_ascii_lowercase();

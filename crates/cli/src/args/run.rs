@@ -41,8 +41,8 @@ pub(crate) struct RunArgs {
     /// Do not check the recipe's expectations
     #[arg(long)]
     pub(crate) no_expect: bool,
-    /// Print where each parameter value comes from, the `note` of each step, and why each step that runs cannot take
-    /// its result from the cache
+    /// Print where each parameter value comes from, the `note` of each step, and for each step that runs, why its
+    /// result is not taken from the cache
     #[arg(long)]
     pub(crate) explain: bool,
     #[command(flatten)]

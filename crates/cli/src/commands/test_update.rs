@@ -9,7 +9,7 @@ use recipe::update::update;
 use crate::output::write_temporary;
 use engine::Loaded;
 
-/// Replaces the expected values in the recipe that differ from the actual values of the run. Returns one line of text
+/// In the recipe, replaces each expected value that differs from the actual value of the run. Returns one line of text
 /// for each change. If the update fixes a failure, this failure is removed from `outcome`.
 pub(crate) fn update_recorded_values(
     path: &Path,

@@ -51,8 +51,8 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
         match load_to_run(args, engine) {
             Ok(loaded) => {
                 for folder in folders(&loaded) {
-                    // The error is ignored, because the check of the recipe has already reported files in folders that
-                    // do not exist.
+                    // The error is ignored: if the folder does not exist, the check of the recipe has already reported
+                    // the missing file.
                     let _ = changes.follow(&folder);
                 }
                 changes.ignore(&loaded.forecast.outputs);

@@ -16,7 +16,7 @@ fn chapter() -> String {
     fs::read_to_string(path).unwrap()
 }
 
-/// Returns the content of the first code block in a text that starts with three backticks and `kind`.
+/// Returns the content of the first code block that starts with three backticks and `kind`.
 fn block<'t>(text: &'t str, kind: &str) -> Option<&'t str> {
     let (_, block) = text.split_once(&format!("```{kind}\n"))?;
     Some(block.split_once("```").unwrap().0)

@@ -123,8 +123,9 @@ def batch(
     :param inputs: Files, or patterns: ``*`` and ``?`` match characters of one name, and ``**`` matches any number of
         folders. Addresses such as ``s3://bucket/*.obj`` need fsspec, and are copied to the folder ``inputs`` in `out`
         first.
-    :param sets: Parameter sets: ``[{"levels": 1}, {"levels": 2}]``. The recipe runs with each set, for each input if there
-        are inputs. The outputs of a set are in a folder in `out` that is named after the number of the set, from 1.
+    :param sets: Parameter sets: ``[{"levels": 1}, {"levels": 2}]``. The recipe runs once for each set or, if there are
+        inputs, once for each combination of a set and an input. The outputs of a set are in a folder in `out` that is
+        named after the number of the set, from 1.
     :param engine: "local" uses the processors of this machine, "dask" starts a local cluster of Dask, and "ray" uses
         Ray. A client of Dask can also be given; the batch then runs on the cluster of the client. The workers of a
         cluster need this package, and access to the same folders. Each task states its estimated memory: to Ray as

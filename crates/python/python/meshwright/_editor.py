@@ -104,7 +104,7 @@ class Editor:
         self._core.delete(list(faces))
 
     def fill_hole(self, half_edge: int) -> int:
-        """Fills the hole of a boundary half-edge with one face. Returns the face."""
+        """Fills the hole beside a boundary half-edge with one face. Returns the face."""
         return self._core.fill_hole(half_edge)
 
     def move(self, vertex: int, position: Sequence[float]) -> None:

@@ -34,8 +34,8 @@ class History:
         return self if self._reason else History(self, step)
 
     def lost(self, change: str, advice: str = SAVE) -> History:
-        """Returns the history after a change that no recipe can make. `change` describes it, such as "repeat `edit()`".
-        Only the first of these changes is recorded."""
+        """Returns the history after a change that no recipe can make. `change` completes the message "no recipe can ..",
+        for example with "repeat `edit()`". If the history already has such a change, the new change is not recorded."""
         if self._reason:
             return self
         step = self._step if len(self._step) <= 80 else f"{self._step[:77]}..."

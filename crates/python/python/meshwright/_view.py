@@ -103,7 +103,7 @@ class View:
             caption += f", {of.fields['name'] if isinstance(of, Choice) else of}: {span}"
             if domain == "face":
                 # Neighboring triangles can have different colors, so each triangle gets three separate points. In the
-                # array, these points come after the vertices of the mesh, which the edges still use.
+                # array, these points come after the vertices of the mesh. The edges still use the vertices.
                 points = np.concatenate([points, points[triangles.reshape(-1)]])
                 colors = np.concatenate([np.zeros((mesh.n_vertices, 3), np.uint8), np.repeat(colors, 3, axis=0)])
                 triangles = (mesh.n_vertices + np.arange(3 * len(triangles), dtype=np.uint32)).reshape(-1, 3)

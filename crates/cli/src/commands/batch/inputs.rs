@@ -42,9 +42,9 @@ impl Input {
         hasher.finalize()
     }
 
-    /// Returns the number of the part to which the file belongs, counted from 1. The part of a file depends only on the
-    /// path of the file and on the number of its parameter set. So if a file is added, no other file moves to a
-    /// different part.
+    /// Returns the number of the part to which the file belongs, counted from 1. This number depends only on the path
+    /// of the file and on the number of its parameter set. So if a file is added, no other file moves to a different
+    /// part.
     pub(super) fn part(&self, of: u32) -> u32 {
         let mut first = [0; 8];
         first.copy_from_slice(&self.digest().as_bytes()[..8]);

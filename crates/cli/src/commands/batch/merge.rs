@@ -96,7 +96,7 @@ fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     let missing = n_parts(reports).map_or(Vec::new(), |of| {
         let has = |index: u32| {
             let mut shards = reports.iter().map(|(_, r)| r.header.shard);
-            // A report whose header names no part of the batch covers all parts.
+            // If the header of a report names no part, the report covers the whole batch.
             shards.any(|s| s.is_none_or(|s| s.index == index))
         };
         (1..=of).filter(|&index| !has(index)).collect()

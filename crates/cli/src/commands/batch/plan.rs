@@ -231,7 +231,7 @@ impl<'a> Batch<'a> {
         Some(hasher.finalize().to_hex()[..32].to_owned())
     }
 
-    /// Removes the temporary output folders that earlier, killed processes of this batch have left.
+    /// Removes the temporary output folders of this batch that killed processes have left.
     pub(super) fn remove_stale(&self, processes: &[u32]) {
         if processes.is_empty() {
             return;

@@ -1,8 +1,8 @@
 //! The rows of a batch, and its reports.
 //!
-//! `--report FILE.json` writes one JSON object. A report with the extension `.jsonl` begins with a line that has the
-//! object of a `.json` report without its field `rows`. The lines after the first line have one row each. A report with
-//! the extension `.csv` has only the rows. In a cell that is a list, the items are joined by `; `.
+//! `--report FILE.json` writes one JSON object. The first line of a `.jsonl` report is the same object without the
+//! field `rows`. Each further line is one row. A report with the extension `.csv` has only the rows. In a cell that is
+//! a list, the items are joined by `; `.
 //!
 //! ```text
 //! {

@@ -43,8 +43,8 @@ pub(super) struct Sheet<'a> {
     picture: Picture,
     files: Files,
     layout: Layout,
-    /// An upper limit for the memory, in bytes, of the scenes that are kept until they are drawn. For each of these
-    /// scenes, the limit includes the estimated peak memory of its run.
+    /// The memory in bytes, estimated from above, of the scenes that are kept until they are drawn. Each scene counts
+    /// as the estimated peak memory of the run that made it.
     kept: AtomicU64,
 }
 
@@ -283,7 +283,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     Ok(wide)
 }
 
-/// Returns the part of the memory budget that is reserved for scenes that wait to be drawn. The runs of the cells use
+/// Returns the part of the memory budget that is reserved for scenes until they are drawn. The runs of the cells use
 /// the rest of the budget.
 pub(super) fn kept_bytes(budget: u64) -> u64 {
     budget / 4

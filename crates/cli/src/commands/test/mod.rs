@@ -224,8 +224,8 @@ impl<'a> Test<'a> {
 
     /// If the recipe is not run as a test of its own, returns the reason.
     ///
-    /// A recipe that other recipes call can need objects that its callers create. If checking such a recipe alone finds
-    /// errors, these errors are ignored.
+    /// A called recipe can need objects that the calling recipe creates. If checking such a recipe alone finds errors,
+    /// these errors are ignored.
     fn reason_not_to_run(&self) -> Option<State> {
         let loaded = self.loaded.as_ref().ok().filter(|loaded| loaded.is_read)?;
         match (self.is_called, expects(loaded)) {

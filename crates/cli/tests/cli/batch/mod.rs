@@ -64,7 +64,7 @@ fn rows(report: &Json) -> &Vec<Json> {
     report["rows"].as_array().unwrap()
 }
 
-/// Returns the input file of each row of a report, with the text of the row in the column `name`.
+/// Returns two texts for each row of a report: the input file, and the value in the column `name`.
 fn column<'r>(report: &'r Json, name: &str) -> Vec<(&'r str, &'r str)> {
     let text = |row: &'r Json, name: &str| row[name].as_str().unwrap_or("");
     rows(report)

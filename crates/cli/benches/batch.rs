@@ -1,5 +1,5 @@
-//! Measures two things for a batch of 200 small files: how busy the processors are, and how much of their time the runs
-//! of the recipe take.
+//! Measures two things for a batch of 200 small files: how busy the processors are, and how much of the time is spent
+//! in runs of the recipe.
 //!
 //! The input files are wavy grids of 1,600 quadrilaterals (about 100 kB of OBJ). The recipe triangulates each grid,
 //! subdivides it once, computes normals and writes it as GLB. The batch runs five times with one thread, and five times

@@ -106,7 +106,7 @@ fn summary(step: &RecipeStep, done: &StepDone) -> String {
 }
 
 /// Returns the reports of the steps, one item on each line: refused edits, losses (data that a step did not keep),
-/// changes to the data of a file during reading, and notes.
+/// repairs made while a file was read, and notes.
 pub(crate) fn step_notes(steps: &[StepDone]) -> String {
     let mut text = String::new();
     for step in steps {

@@ -35,7 +35,7 @@ FACES = np.array([[0, 1, 2], [0, 0, 1], [1, 0, 3], [0, 1, 4]])
 
 @pytest.mark.parametrize("package", ["trimesh", "meshio", "pyvista", "open3d"])
 def test_repairs_keep_the_attributes_of_the_other_elements(package: str) -> None:
-    """The data have an edge with three faces, whose vertices are split, and an invalid face, which is dropped."""
+    """The data have an edge with three faces, and an invalid face. The repair splits the edge and drops the face."""
     pytest.importorskip(package, exc_type=ImportError)
     heat, part = np.arange(5.0), np.array([10, 11, 12, 13])
     other: Any

@@ -114,7 +114,7 @@ struct Rerun {
     run: Run,
     loaded: Loaded,
     outcome: Outcome,
-    /// The folder of the outputs, which is removed when this value is dropped.
+    /// The output folder. It is removed when this value is dropped.
     _out: TemporaryFolder<'static>,
 }
 

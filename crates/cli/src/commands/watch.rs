@@ -2,8 +2,8 @@
 //!
 //! The program does not watch the files themselves but their folders, because many text editors replace a file when
 //! they save it. The program ignores changes of files that the recipe does not read or that the run itself writes. The
-//! cache compares the contents of files. Therefore, a step whose inputs did not change is not run again. If a file is
-//! saved without a change, and the cache has the results of all steps, no results are printed. If a file is saved
+//! cache compares the contents of files. Therefore, a step with unchanged inputs usually does not run again. If a file
+//! is saved without a change, and the cache has the results of all steps, no results are printed. If a file is saved
 //! during a run, the run is canceled and the next run starts. Ctrl-C cancels the current run, if any, and ends the
 //! program with exit code 0.
 
@@ -194,7 +194,8 @@ impl FolderWatcher {
         pending.is_some()
     }
 
-    /// Waits for a change of a file. Then waits until no file changes for [`SETTLE_TIME`]. Returns `None` if Ctrl-C is pressed.
+    /// Waits for a change of a file. Then waits until no file changes for the time [`SETTLE_TIME`]. Returns `None` if
+    /// Ctrl-C is pressed.
     fn wait(&self) -> Option<PathBuf> {
         loop {
             if is_interrupted() {

@@ -2,7 +2,7 @@
 
 use crate::folder::Folder;
 
-/// Deletes a face of a torus and then flips boundary edges, which is refused.
+/// Deletes a face of a torus, and then tries to flip boundary edges. The flips are refused.
 const FAILS: &str = r#"(recipe: 1,
     params: {"n": Int(default: 12), "part": Path(default: "part.obj")},
     steps: [

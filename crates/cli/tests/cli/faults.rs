@@ -40,7 +40,7 @@ fn a_run_without_free_file_descriptors_ends_with_a_sentence_and_leaves_nothing()
                 succeeded += 1;
                 assert!(outputs(&folder) == new, "{descriptors} descriptors");
             }
-            // 127 means that the dynamic linker could not open the program's libraries.
+            // The exit code 127 means that the dynamic linker could not open the program's libraries.
             Some(127) => {}
             _ => {
                 let ended = ended.with_code(1);

@@ -22,9 +22,9 @@ fn every_run_ends_under_a_limit_of_memory() {
             assert!(!ended.stderr.contains("internal error"), "{what}");
             match ended.code {
                 Some(0) => succeeded += 1,
-                // 127 means that the system could not load the program. 134 and `None` (killed by a signal) mean that a
-                // small allocation failed: only failed allocations of large arrays are reported as errors with exit
-                // code 1.
+                // The exit code 127 means that the system could not load the program. The exit code 134 and `None`
+                // (killed by a signal) mean that a small allocation failed. Only failed allocations of large arrays are
+                // reported as errors, with the exit code 1.
                 Some(1 | 127 | 134) | None => {
                     refused += 1;
                     let sentence = ["memory", "Resource temporarily unavailable", "cannot"];
@@ -34,7 +34,7 @@ fn every_run_ends_under_a_limit_of_memory() {
                         None
                     );
                 }
-                // 137 means that `timeout` killed the program because it did not end.
+                // The exit code 137 means that `timeout` killed the program because it did not end.
                 _ => panic!("{what}"),
             }
         }

@@ -25,7 +25,7 @@ fn recorded() -> Folder {
     folder
 }
 
-/// Changes one pixel of a picture, which must be opaque.
+/// Changes one pixel of a picture. The picture must have no alpha channel.
 fn change_a_pixel(folder: &Folder, name: &str, place: usize, by: u8) {
     let file = BufReader::new(File::open(folder.path(name)).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();

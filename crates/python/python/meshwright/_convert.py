@@ -24,7 +24,7 @@ def module(name: str) -> Any:
     try:
         return importlib.import_module(name)
     except ModuleNotFoundError as error:
-        # If the package is installed but needs another package that is missing, its own error says so.
+        # If the package is installed, but another package that it needs is missing, the original error says so.
         if error.name not in (name, None):
             raise
         raise ImportError(f"this conversion needs {name}: pip install {name}") from error

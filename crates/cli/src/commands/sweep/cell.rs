@@ -57,7 +57,7 @@ pub(super) struct CellResult {
     pub(super) is_not_run: bool,
 }
 
-/// The scene of a cell that succeeded, which is drawn on the sheet of the sweep.
+/// The scene of a cell that succeeded. It is drawn on the sheet of the sweep.
 #[derive(Debug)]
 pub(super) struct CellScene {
     /// The extent of the scene, from which the camera and the colors are chosen, or the reason why the scene cannot be

@@ -113,8 +113,8 @@ impl Request {
     }
 }
 
-/// Returns the real path of a file in the folder, after following links. Returns `None` if the file does not exist, is
-/// not a regular file, or is outside of the folder after following links.
+/// Follows links, and returns the real path of a file in the folder. Returns `None` if the real path does not exist, is
+/// not a regular file, or is outside of the folder.
 fn inside(folder: &Path, path: &Path) -> Option<PathBuf> {
     let real = folder.join(path).canonicalize().ok()?;
     (real.starts_with(folder) && real.is_file()).then_some(real)

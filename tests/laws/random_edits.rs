@@ -411,8 +411,8 @@ impl Polygons {
         Err(EditError::Vanishes(e))
     }
 
-    /// Whether this polygon list is a manifold with the same topology as `before`, and no more elements coincide than
-    /// in `before`. Compared to `before`, one vertex, `vanished` faces and `vanished` + 1 edges must be missing.
+    /// Whether this polygon list is a manifold with the same topology as `before`, and has no more coinciding elements
+    /// than `before`. Compared to `before`, one vertex, `vanished` faces and `vanished` + 1 edges must be missing.
     fn has_topology_of(&self, before: &Self, vanished: usize) -> bool {
         let [mine, other] = [self, before].map(|polygons| {
             // The three counts are: corners of a face at the same vertex, edges with the same face on both sides, and

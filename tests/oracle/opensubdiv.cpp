@@ -188,7 +188,8 @@ void print(Value<N> const& value) {
     }
 }
 
-/// Prints the positive sharpness of inner edges, and of vertices that the boundary rule does not make corners.
+/// Prints the positive sharpness of inner edges and of vertices. Vertices that are corners by the boundary rule are
+/// left out.
 void print_sharpness(Case const& in, Far::TopologyLevel const& level) {
     bool const corners =
         in.options.GetVtxBoundaryInterpolation() == Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;

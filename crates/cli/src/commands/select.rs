@@ -86,7 +86,7 @@ fn meshes<'s>(
     args.on.iter().map(named).collect()
 }
 
-/// Returns the number of all elements of the mesh that have the same kind as the selected elements.
+/// Returns the number of all vertices, edges or faces of the mesh, depending on the kind of the selected elements.
 fn total(mesh: &Mesh, chosen: &Selected) -> usize {
     match chosen {
         Selected::Vertices(_) => mesh.n_vertices(),

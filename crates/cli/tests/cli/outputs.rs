@@ -1,4 +1,4 @@
-//! `Output`: compares files that steps write with reference files beside the recipe.
+//! The expectation `Output`, which compares a written file with a reference file beside the recipe.
 
 use std::fs::File;
 use std::io::BufReader;

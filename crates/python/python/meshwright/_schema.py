@@ -32,7 +32,7 @@ def definition(name: str) -> Schema:
 
 
 def resolve(schema: Schema) -> Schema:
-    """The schema to which a reference refers. Returns a schema without a reference unchanged."""
+    """Returns the schema that a reference names. A schema that is not a reference is returned unchanged."""
     while "$ref" in schema:
         schema = definition(schema["$ref"].rsplit("/", 1)[1])
     return schema

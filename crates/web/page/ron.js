@@ -7,8 +7,8 @@ const STRING = /"(?:[^"\\]|\\[^])*"?/y;
 const COMMENT = /\/\/[^\n]*|\/\*[^]*?(?:\*\/|$)/y;
 const SPACE = /\s+/y;
 
-/// Yields the tokens of a text that are not space: `{ kind, text, start, end }`. The kind is `word`, `number`, `string`
-/// or `comment`. For all other tokens, the kind is the character itself.
+/// Yields the tokens of a text, without the white space between them: `{ kind, text, start, end }`. The kind is `word`,
+/// `number`, `string` or `comment`. For all other tokens, the kind is the character itself.
 export function* tokens(text) {
     let start = 0;
     const match = (pattern) => {

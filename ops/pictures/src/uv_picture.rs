@@ -12,8 +12,8 @@ use crate::figure_file;
 ///
 /// A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
 /// borders of charts, and thin lines are the other edges. Charts outside the page are also drawn. To make room for
-/// these charts, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
-/// format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
+/// these charts, the figure is made higher, or everything in it is drawn smaller. The extension of the file determines
+/// the format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvPicture {

@@ -215,8 +215,8 @@ pub(crate) struct SweepArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Draw the final scenes of all cells (runs) in one image (.png). Below each scene are the values that the sweep
-    /// file lists in `keep`, as many as fit
+    /// Draw one image (.png) that shows the final scene of each cell (a run with one combination of values). Below each
+    /// scene are the values that the sweep file lists in `keep`, as many as fit
     #[arg(long, value_name = "FILE", help_heading = SHEET)]
     pub(crate) sheet: Option<PathBuf>,
     /// Number of cells in each row; with this option, the parameter values of each cell are shown below the cell

@@ -379,10 +379,10 @@ impl Panel {
         unset_selection(self).is_some_and(|(_, wanted)| wanted.is_none_or(|wanted| wanted == kind))
     }
 
-    /// Returns the name of the parameter that a command with this selection sets, and its new value as RON. Returns
-    /// `None` if no parameter selects elements, or if the first parameter that selects elements already has a value.
-    /// Also returns `None` if the picked elements cannot be converted to the kind of elements that this parameter
-    /// selects.
+    /// Returns which parameter a command sets to this selection: the name of the parameter, and the selection as RON.
+    /// Returns `None` if no parameter selects elements, or if the first parameter that selects elements already has a
+    /// value. Also returns `None` if the picked elements cannot be converted to the kind of elements that this
+    /// parameter selects.
     pub fn picked_value(&self, selection: &SelectionText) -> Option<(String, String)> {
         let (field, kind) = unset_selection(self)?;
         let selection = selection.without_tag(&self.operation);

@@ -188,9 +188,9 @@ class Mesh(MeshConversions, MeshOperations):
         :param face_starts: The index of the first corner of each face in `faces`, and the number of all corners as the
             last entry.
         :param name: The name of the object.
-        :param repair: Whether faces that are not a manifold are repaired: inconsistent faces are reversed, edges with
-            more than two faces are split, and faces with fewer than three corners are dropped. `notes` lists the
-            repairs. If false, a mesh that needs a repair raises `ValueError`.
+        :param repair: Whether the faces are repaired if they do not form a manifold. A repair reverses faces with
+            inconsistent orientation, splits edges with more than two faces, and drops faces with fewer than three
+            corners. `notes` lists the repairs. If false, a mesh that needs a repair raises `ValueError`.
         """
         return cls._built(vertices, faces, face_starts, name, repair)[0]
 

@@ -127,8 +127,8 @@ class Recipe(SceneOperations):
         """Creates a recipe from its text, or an empty recipe.
 
         :param text: The text.
-        :param path: The path of the recipe file. Messages contain this path, and relative paths in the text are
-            relative to the folder of this file. The file is not read.
+        :param path: The path of the recipe file. Messages contain this path. Relative paths in the text start at the
+            folder of this file. The file is not read.
         """
         self._text = text
         self._path = os.fspath(path)

@@ -132,7 +132,7 @@ impl Handle {
 }
 
 impl ViewPane {
-    /// Handles drags of the handles. Returns whether a handle is dragged.
+    /// Processes the mouse input for the handles at the picked elements. Returns whether the user is dragging a handle.
     pub(super) fn gizmo(
         &mut self,
         ui: &Ui,

@@ -35,10 +35,10 @@ pub struct ControlPoint {
 }
 
 impl ControlPoint {
-    /// Returns the position, in the space of the object, to which the control point moves when it is dragged to a
-    /// pixel. A control point of a curve is dragged within the plane of the curve. A control point of a patch is
-    /// dragged within the plane that contains the point and is parallel to the picture. Returns `None` if no point of
-    /// this plane is visible at the pixel.
+    /// Returns where the control point moves when it is dragged to a pixel. The position is in the space of the object.
+    /// A control point of a curve is dragged within the plane of the curve. A control point of a patch is dragged
+    /// within the plane that contains the point and is parallel to the picture. Returns `None` if no point of this
+    /// plane is visible at the pixel.
     pub fn dragged_to(&self, view: &Projection, pixel: DVec2) -> Option<DVec3> {
         let of_object = view.of_object(self.to_scene);
         let at = if self.is_of_curve {
@@ -86,10 +86,10 @@ pub fn pick_control_point(scene: &Scene, view: &Projection, pixel: DVec2) -> Opt
 impl Editor {
     /// Moves a control point of a curve or patch. The control point must exist in the scene at the step cursor, which
     /// is a position between two steps of the recipe. A step `MoveControlPoint` or `MovePatchPoint` is inserted at the
-    /// cursor. The new position `to` is in the space of the object, in which curves lie in the plane z = 0. If the step
-    /// before the cursor already moves the same control point, the parameter `to` of that step is changed instead.
-    /// Several movements of the same control point therefore become one step. If `is_preview` is true, the movement is
-    /// only previewed, and the text does not change.
+    /// cursor. The new position `to` is in the space of the object. In this space, a curve lies in the plane z = 0. If
+    /// the step before the cursor already moves the same control point, the parameter `to` of that step is changed
+    /// instead. Several movements of the same control point therefore become one step. If `is_preview` is true, the
+    /// movement is only previewed, and the text does not change.
     ///
     /// # Errors
     ///

@@ -1,5 +1,5 @@
-//! The journal: a file with the unsaved text, which is written after every change. After a crash, the text is offered
-//! at the next start.
+//! The journal: a file that contains the unsaved text. The file is written after every change. After a crash, the text
+//! is offered at the next start.
 //!
 //! Each editor has its own folder inside the folder for all journals. The folder of an editor is removed when the text
 //! is saved, and when the editor is closed.
@@ -98,7 +98,7 @@ impl Journal {
 }
 
 /// Reads the folder for journals, and returns the unsaved texts of editors that were not closed, for example because of
-/// a crash. On systems that have a folder `/proc`, the texts of editors whose processes are still running are left out.
+/// a crash. On systems that have a folder `/proc`, leaves out the texts of other processes that are still running.
 pub fn recoverable(store: &dyn Store, folder: &Path) -> Vec<Recovery> {
     let folders = store.list(folder).unwrap_or_default();
     folders

@@ -67,13 +67,13 @@ pub enum Action {
     /// Close the window.
     Quit,
     /// Close the help, the list of operations, the dialog or the new step that is open. If none of them is open, cancel
-    /// the run or, if no run is in progress, pick nothing.
+    /// the run. If no run is in progress either, unpick all elements.
     Cancel,
     /// Show the next selection expression, such as `Sharp(above: 30)`, that describes the picked elements.
     NextProposal,
     /// Also pick the neighbors of the picked elements.
     Grow,
-    /// Unpick each picked element with an unpicked neighbor.
+    /// Unpick the picked elements that have an unpicked neighbor.
     Shrink,
     /// Pick the edge loop through the picked edges.
     EdgeLoop,
@@ -119,7 +119,7 @@ impl Action {
         rows().map(|row| row.0)
     }
 
-    /// Returns all actions, grouped by task. Each group has the name of a task and its actions.
+    /// Returns all actions, grouped by task. Each group is a pair: the name of a task, and the actions for this task.
     pub fn groups() -> impl Iterator<Item = (&'static str, impl Iterator<Item = Self>)> {
         GROUPS
             .iter()
@@ -341,7 +341,7 @@ impl Default for Keys {
 /// The reason why a file that changes keys cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum KeysError {
-    /// The text is not a map of actions and keys.
+    /// The text is not a map from actions to lists of keys.
     #[error("line {line}, column {column}: {message}")]
     Text {
         /// The line, from 1.

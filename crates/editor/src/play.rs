@@ -23,7 +23,7 @@ const LOOP: &str = "LoopSubdivide";
 pub struct Play {
     mesh: Mesh,
     edits: Vec<PlayedEdit>,
-    /// One change of the mesh for each edit. If the edit is done, the change undoes it. Otherwise, the change does it.
+    /// For each edit, a change of the mesh. It undoes the edit if the edit is done, and makes the edit otherwise.
     changes: Vec<Option<Change>>,
     at: usize,
 }
@@ -70,8 +70,8 @@ impl Play {
     /// edits are returned.
     ///
     /// `label` is the label of the step, which seeds random choices. Returns `None` if the step has another operation,
-    /// or is `FlipEdges` with `until`. Also returns `None` if the step has errors or a value `arg(..)`, or if the
-    /// object is not a mesh.
+    /// or if it is `FlipEdges` and sets the parameter `until`. Also returns `None` if the step has errors or a value
+    /// `arg(..)`, or if the object is not a mesh.
     pub fn of_step(scene: &Scene, object: &str, run: &Value, label: &str) -> Option<Self> {
         let object = scene.object(object)?;
         let mesh = object.as_mesh()?;
@@ -96,8 +96,9 @@ impl Play {
         Some(play.rewound())
     }
 
-    /// Returns one level of Loop subdivision as local edits. First, all edges are split. Then, the new edges that join
-    /// an old and a new vertex are flipped. At the end, all vertices move. None of the edits is done yet.
+    /// Returns one level of Loop subdivision as local edits. First, all edges are split. Each split also adds edges
+    /// inside the neighboring faces. Then, those of the added edges that join an old and a new vertex are flipped. At
+    /// the end, all vertices move. None of the edits is done yet.
     ///
     /// Returns `None` if one level of Loop subdivision of all faces does not turn `before` into `after`. Also returns
     /// `None` if there are more than 10 000 edits.
@@ -245,8 +246,8 @@ impl Editor {
         }
     }
 
-    /// Whether a step of the text makes local edits that can be played. The parameters of the step are not checked,
-    /// except the number of levels, so [`play`](Self::play) can still return `None`.
+    /// Whether a step of the text makes local edits that [`play`](Self::play) can show one by one. The parameters of
+    /// the step are not checked, except the number of levels, so [`play`](Self::play) can still return `None`.
     pub fn has_edits(&self, step: usize) -> bool {
         let operation = self.outline().steps.get(step).map(|text| &*text.name);
         operation.is_some_and(|name| match Edit::of(name) {

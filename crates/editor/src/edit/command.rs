@@ -33,7 +33,7 @@ pub struct SelectionText {
     pub kind: ElementKind,
     /// The selection as RON.
     pub text: String,
-    /// A step that must be inserted before the command's step, because it adds the tag that the selection uses.
+    /// A step that adds the tag that the selection uses. This step must be inserted before the command's step.
     pub before: Option<String>,
     /// The name of the object.
     pub object: String,
@@ -77,9 +77,9 @@ pub enum CommandError {
 }
 
 impl SelectionText {
-    /// Returns the selection for a command with the operation `name`. If this operation is also the operation of the
-    /// step `before`, such as `TagFaces`, the step `before` is not needed. The returned selection then lists the
-    /// elements that this step would tag. For all other operations, returns a copy of `self`.
+    /// Returns the selection for a command with the operation `name`. If the step `before` has the same operation (for
+    /// example, `TagFaces`), two steps would tag the same elements. In this case, the returned selection lists these
+    /// elements and needs no step before it. For all other operations, returns a copy of `self`.
     fn without_tag(&self, name: &str) -> Self {
         let elements = self.before.as_deref().and_then(|before| {
             let step = parse(before).value;
@@ -403,7 +403,8 @@ fn converted(selection: &SelectionText, wanted: Option<ElementKind>) -> Option<S
         }),
         Some(kind) if kind == selection.kind => Some(text.clone()),
         Some(kind) => {
-            // The list ends with the narrowest conversion. For example, `EdgesWithin` is narrower than `EdgesAround`.
+            // The narrowest conversion is the last in the list. For example, `EdgesWithin` is narrower than
+            // `EdgesAround`.
             let outer = kind.conversions(selection.kind).last()?;
             Some(format!("{outer}({text})"))
         }

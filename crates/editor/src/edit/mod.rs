@@ -67,11 +67,11 @@ pub struct Editor {
     run: RunState,
     /// The number of the newest request to run a text.
     number: u64,
-    /// The version of the text to which `run` belongs. `None` if `run` belongs to a preview.
+    /// The version of the text whose results are in `run`. `None` if `run` has the results of a preview.
     run_version: Option<u64>,
     /// The version of the text for which the last run was requested. `None` if the last request was for a preview.
     requested: Option<u64>,
-    /// Whether `run` belongs to the newest request to run a text.
+    /// Whether the results in `run` answer the newest request to run a text.
     is_checked: bool,
     /// Whether the newest request to run a text was canceled.
     is_canceled: bool,
@@ -89,7 +89,7 @@ pub struct Editor {
     has_picked: bool,
     /// The selections that describe the picked elements.
     proposals: Proposals,
-    /// The selection that describes the picked elements at first: a selection that the user has typed, or the selection
+    /// The first selection that describes the picked elements: a selection that the user has typed, or the selection
     /// for a single picked element. If another selection is requested, a selection from `proposals` is used instead.
     first_proposal: Option<Proposal>,
     proposal: usize,
@@ -114,7 +114,7 @@ pub enum OpenError {
 /// The changes since the last call of [`Editor::poll`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Update {
-    /// False if the scene at the cursor has certainly not changed.
+    /// Whether the scene at the cursor may have changed.
     pub scene: bool,
     /// Whether the state of the run changed.
     pub run: bool,
@@ -236,7 +236,8 @@ impl Editor {
         &self.run
     }
 
-    /// Whether [`run`](Self::run) belongs to the current text. Only then do the spans of the run fit the text.
+    /// Whether [`run`](Self::run) belongs to the current text. If false, the spans of the run can be wrong for the
+    /// current text.
     pub fn is_run_current(&self) -> bool {
         self.run_version == Some(self.document.version())
     }
@@ -368,9 +369,9 @@ impl Editor {
         }
     }
 
-    /// Returns which steps of the newest run come from the step with the index `item` in the text. The result is a
-    /// range of indices into the steps of the run. During a preview, the run can have more steps than the text. The
-    /// returned range takes these additional steps into account.
+    /// Returns the steps of the newest run that come from the step `item` of the text, as a range of indices into the
+    /// steps of the run. During a preview, the run can have more steps than the text. The returned range takes these
+    /// additional steps into account.
     pub fn steps_of_item(&self, item: usize) -> std::ops::Range<usize> {
         let is_after = item >= self.cursor;
         let new = if is_after { self.preview_steps } else { 0 };
@@ -458,7 +459,7 @@ impl Editor {
             .clone()
             .unwrap_or_else(|| self.document.text().clone());
         self.requested = self.preview.is_none().then(|| self.document.version());
-        // The existing results belong to an earlier request, not to the text that is requested now.
+        // The existing results belong to an earlier request, not to the text that is to be run now.
         self.run_version = None;
         self.runner.request(Request {
             number: self.number,
@@ -470,15 +471,15 @@ impl Editor {
         });
     }
 
-    /// Writes the unsaved text to the journal, and keeps the journal when the editor is dropped. The program can offer
-    /// the text at its next start. A program calls this function if the program must end before the user can save the
-    /// text.
+    /// Writes the unsaved text to the journal, and keeps the journal when the editor is dropped. When the program
+    /// starts again, it can offer the text to the user. A program calls this function if it must end before the user
+    /// can save the text.
     pub fn leave_journal(&mut self) {
         self.keep_journal();
         self.journal = None;
     }
 
-    /// Watches the file of the recipe, the files of the recipes that it calls, and its input files.
+    /// Watches the file of the recipe, its input files, and the files of called recipes.
     fn watch(&self) {
         let own = self.document.seen();
         self.runner.watch(

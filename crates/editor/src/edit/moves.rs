@@ -118,7 +118,7 @@ impl Editor {
         Some(self.placed(&picked.object).transform_point3(center))
     }
 
-    /// Returns the axes of the object with the picked elements, as unit vectors of the scene. If no elements are
+    /// Returns the axes of the object with the picked elements, as unit vectors in scene space. If no elements are
     /// picked, returns the axes of the scene.
     pub fn picked_axes(&self) -> [DVec3; 3] {
         let object = self.picked().map(|picked| self.placed(&picked.object));
@@ -180,8 +180,8 @@ impl Editor {
         }
     }
 
-    /// If the step before the cursor moves the same elements as the new step, returns the index and the movement of
-    /// that step.
+    /// If the step before the cursor moves the same elements as the new step, returns the index and the movement of the
+    /// step before the cursor.
     fn moves_same(&self, new: &[String]) -> Option<(usize, By)> {
         let [new] = new else { return None };
         let step = self.cursor().checked_sub(1)?;

@@ -43,11 +43,11 @@ pub enum FieldKind {
 pub struct Limits {
     /// The minimum.
     pub min: Option<f64>,
-    /// Whether the minimum itself is not allowed.
+    /// Whether a value must be greater than the minimum, not equal to it.
     pub above_min: bool,
     /// The maximum.
     pub max: Option<f64>,
-    /// Whether the maximum itself is not allowed.
+    /// Whether a value must be less than the maximum, not equal to it.
     pub below_max: bool,
 }
 

@@ -1,5 +1,5 @@
-//! Values that consist of parts: structs, and variants of enumerations that have content. In the panel, each part of a
-//! value has its own field.
+//! Values that consist of parts: structs, and enumeration variants with content. In the panel, each part of a value has
+//! its own field.
 
 use ron_tree::{Value, ValueKind, parse};
 use serde_json::Value as Json;
@@ -36,7 +36,8 @@ enum Content {
 pub struct Part {
     /// The field that shows the part, with the value of the part.
     pub field: PanelField,
-    /// The path that leads from the whole value to the part. The path is empty for the numbers of `Name(x, y, z)`.
+    /// The path that leads from the whole value to the part. The path is empty if the part consists of all numbers of
+    /// `Name(x, y, z)`.
     path: Vec<String>,
 }
 

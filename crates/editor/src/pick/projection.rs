@@ -87,8 +87,8 @@ impl Projection {
         } else {
             0.0
         };
-        // Under perspective, the point at the fraction s of the segment in the picture is at a different fraction t of
-        // the segment in space.
+        // A point of the segment divides it in the picture at the fraction s, and in space at the fraction t. Under
+        // perspective, s and t differ.
         let t = if p.1 > 0.0 && q.1 > 0.0 {
             let w = s / q.1;
             w / (w + (1.0 - s) / p.1)

@@ -13,7 +13,7 @@ use super::state::Verdict;
 pub struct Snapshot {
     /// The scene after the step.
     pub scene: Arc<Scene>,
-    /// The report of the step, the counts of elements after it, and the time that it took.
+    /// The report of the step, the time that the step took, and the numbers of elements after the step.
     pub done: Arc<StepDone>,
 }
 

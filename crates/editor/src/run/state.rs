@@ -65,7 +65,7 @@ pub struct StepState {
     /// The index of the entry from which the step comes. The index refers to the list `steps` in the recipe's text. All
     /// steps inside the same call or repetition have the same index.
     pub item: usize,
-    /// The index in [`RunState::sources`] of the text that `span` refers to.
+    /// The text that `span` refers to, as an index into [`RunState::sources`].
     pub source: usize,
     /// The range of the text in which the name of the operation is written.
     pub span: Span,
@@ -78,7 +78,7 @@ pub struct StepState {
 /// An expectation of the run.
 #[derive(Clone, Debug)]
 pub struct ExpectationState {
-    /// The index in [`RunState::sources`] of the text that `span` refers to.
+    /// The text that `span` refers to, as an index into [`RunState::sources`].
     pub source: usize,
     /// The span of the expectation.
     pub span: Span,
@@ -131,7 +131,7 @@ impl RunState {
         matches!(self.status, Status::Running(_))
     }
 
-    /// Returns which steps of the run come from the entry `item` of the list `steps` in the text, as a range of
+    /// Returns the steps of the run that come from the entry `item` of the list `steps` in the text, as a range of
     /// indices. The range is empty if no steps come from the entry, for example because it is disabled.
     pub fn steps_of(&self, item: usize) -> std::ops::Range<usize> {
         let start = self.steps.partition_point(|step| step.item < item);
@@ -139,8 +139,8 @@ impl RunState {
     }
 
     /// Returns the last known result among the steps that come from the first `n` entries of the list `steps`. Also
-    /// returns whether the results of all steps from the first `n` entries are known. The result is `None` if the
-    /// result of the first step is not known.
+    /// returns whether the results of all steps from the first `n` entries are known. Returns `None` instead of a
+    /// result if the first step has no known result.
     pub(crate) fn result_after(&self, n: usize) -> (Option<&Snapshot>, bool) {
         let end = self.steps.partition_point(|step| step.item < n);
         let steps = &self.steps[..end];

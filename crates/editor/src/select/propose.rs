@@ -22,7 +22,7 @@ const MAX_LISTED: usize = 8;
 pub struct Proposal {
     /// The selection as RON.
     pub text: String,
-    /// A step that must be inserted before the selection is used, because it adds the tag that the selection uses.
+    /// A step that adds the tag that the selection uses. This step must be inserted before the selection is used.
     pub before: Option<String>,
 }
 
@@ -297,8 +297,8 @@ fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
     }
 }
 
-/// Returns the two ends of a path of edges. An end is a vertex at which exactly one of the edges ends. Returns `None`
-/// if the edges do not form one path.
+/// Returns the two ends of a path of edges. An end of the path is a vertex of exactly one of the edges. Returns `None`
+/// if there are not exactly two ends, or if a vertex has more than two of the edges.
 fn path_ends(mesh: &Mesh, list: &[EdgeId]) -> Option<(usize, usize)> {
     let mut ends: Vec<usize> = list
         .iter()
@@ -323,7 +323,8 @@ fn path_ends(mesh: &Mesh, list: &[EdgeId]) -> Option<(usize, usize)> {
 
 /// Returns a limit that is less than all values of picked elements and greater than all values of other elements. The
 /// limit has few digits if the gap between these values allows it. Returns `None` if no limit separates the picked
-/// elements from the other elements, or if the gap between their values is as small as a rounding error.
+/// elements from the other elements. Also returns `None` if the gap between their values is as small as a rounding
+/// error.
 fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for (value, is_picked) in values {
@@ -362,9 +363,9 @@ fn short_between(low: f64, high: f64) -> String {
     number(middle)
 }
 
-/// Returns an angle for a selection `Expand` that starts at the first picked face and selects the picked faces. The
-/// angle is greater than all angles between neighboring picked faces, and less than all angles at the border of the
-/// picked faces.
+/// The selection `Expand` can start at the first picked face, and spread over all edges up to an angle. Returns an
+/// angle with which it selects the picked faces. The angle is greater than all angles between neighboring picked faces,
+/// and less than all angles at the border of the picked faces.
 fn spread_angle(mesh: &Mesh, picked: &[bool]) -> Option<String> {
     let angle = mesh.dihedral_angles();
     let (mut inside, mut border) = (0.0_f64, f64::INFINITY);

@@ -26,7 +26,7 @@ fn editor() -> (Editor, Arc<Memory>) {
     )
 }
 
-/// Returns an editor that has opened a recipe with this text and run it.
+/// Opens a recipe with this text in an editor, waits until the recipe has run, and returns the editor.
 fn opened(text: &str) -> (Editor, Arc<Memory>) {
     let (mut editor, store) = editor();
     store.write(Path::new("a.ron"), text.as_bytes()).unwrap();

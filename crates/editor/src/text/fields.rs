@@ -5,8 +5,8 @@ use ron_tree::{Span, Value, ValueKind};
 use super::entries::{insert_entry, remove_entry};
 use super::{Edits, TextError};
 
-/// Returns the value at a path, which has the form described at [`set_field`]. Returns `None` if the text has no value
-/// at this path.
+/// Returns the value at a path. The form of paths is described at [`set_field`]. Returns `None` if the text has no
+/// value at this path.
 pub(crate) fn field_value<'v>(value: &'v Value, path: &[String]) -> Option<&'v Value> {
     let mut place = Place::of(value);
     for item in path {
@@ -17,9 +17,9 @@ pub(crate) fn field_value<'v>(value: &'v Value, path: &[String]) -> Option<&'v V
 
 /// Sets the value at a path to `new`. If `new` is `None`, removes the field, so that it has its default value.
 ///
-/// A path is a list of names of fields, variants and keys, and of indices of items, such as
-/// `["edges", "Random", "count"]`. If the text does not have the field yet, the field is added, together with the
-/// missing fields that contain it.
+/// A path leads into a value from the outside, for example `["edges", "Random", "count"]`. Each entry is the name of a
+/// field or a variant, a key of a map, or the index of an item. If the text does not have the field yet, the field is
+/// added, together with the missing fields that contain it.
 ///
 /// # Errors
 ///

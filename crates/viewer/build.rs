@@ -1,4 +1,4 @@
-//! Lists the pictures of the reference of operations, so that the program contains them.
+//! Lists the pictures of operations in ops/all/pictures, so that the program contains these pictures.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

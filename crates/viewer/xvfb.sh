@@ -31,7 +31,7 @@ wait_for() {
 picture() { if command -v import > /dev/null; then sleep 1 && import -window root "$1.png" || true; fi; }
 key() { xdotool key "$1" && sleep 0.5; }
 click() { xdotool mousemove --window "$window" "$1" "$2" && sleep 0.5 && xdotool click 1 && sleep 0.5; }
-# Saves the recipe, and waits until the file has a text.
+# Saves the recipe, and waits until the saved file contains the given text.
 saved() {
     key ctrl+s
     wait_for grep -q "$1" cube.ron || fail "the saved recipe has no $1"

@@ -184,8 +184,8 @@ impl Camera {
         self.target -= (x * pixels.x - y * pixels.y) * self.pixel_size(size.y);
     }
 
-    /// Multiplies the distance to the target by `factor`. If a point has the depth of the target and is visible at the
-    /// pixel `at`, it stays at this pixel.
+    /// Multiplies the distance to the target by `factor`. The point that is visible at the pixel `at` stays there if it
+    /// has the same depth as the target.
     pub fn zoom(&mut self, factor: f64, at: DVec2, size: DVec2) {
         let [x, y, _] = self.axes();
         let d = (at - 0.5 * size) * self.pixel_size(size.y);

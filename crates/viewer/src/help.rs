@@ -26,7 +26,7 @@ const MOUSE: [(&str, &str); 10] = [
     ("Drag a control point", "move it (curves and patches)"),
 ];
 
-/// The help shows the keys in `SIDES` at the end of this task.
+/// The name of the task below which the help also shows the keys in `SIDES`.
 const LOOK: &str = "Look";
 /// Keys that the table of actions does not have.
 const SIDES: [(&str, &str); 2] = [
@@ -93,7 +93,7 @@ fn columns_of(lengths: &[usize]) -> Vec<usize> {
     columns
 }
 
-/// Draws the keys of a task.
+/// Draws the name of a task, and the keys for this task below it.
 fn group(ui: &mut Ui, task: &str, rows: &[(String, &str)]) {
     ui.add_space(4.0);
     ui.label(RichText::new(task).strong().size(13.0));

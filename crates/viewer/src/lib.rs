@@ -1,5 +1,5 @@
 //! The window of the editor. The window draws the scenes that the crate `editor` computes, and passes the input of the
-//! user to this crate.
+//! user to `editor`.
 //!
 //! - [`App`]: the window's contents, for eframe and for tests.
 //! - [`camera`]: the camera of the view.

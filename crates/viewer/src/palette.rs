@@ -14,7 +14,7 @@ use crate::theme::Colors;
 pub(crate) struct Palette {
     query: String,
     at: usize,
-    /// The operations that take the picked elements.
+    /// The operations that can be applied to the picked elements.
     fitting: BTreeSet<&'static str>,
 }
 

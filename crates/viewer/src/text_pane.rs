@@ -256,9 +256,9 @@ fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     }
 }
 
-/// Returns the variants of the parameter whose value contains a byte of the text. If the byte is in a selection that is
-/// nested inside another selection, these are still the variants of the parameter. Returns no variants if the byte is
-/// not in the value of a parameter of a step.
+/// Returns the variants of the parameter whose value contains a byte of the text. Inside a nested selection, such as
+/// `Sharp` in `Not(Sharp(above: 30))`, the result is the same: the variants of the whole parameter. Returns no variants
+/// if the byte is not in the value of a parameter of a step.
 fn variants_at(editor: &editor::Editor, at: usize) -> Vec<recipe::VariantDoc> {
     let outline = editor.outline();
     let field = outline.step_at(at).and_then(|step| {

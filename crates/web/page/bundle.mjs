@@ -71,7 +71,7 @@ const frame = readFileSync(join(here, "operations.html"), "utf8");
 writeFileSync(join(out, "operations.html"), frame.replace("REFERENCE", () => marked.parse(reference)));
 cpSync(join(root, "ops/all/pictures"), join(out, "pictures"), { recursive: true });
 
-// The scenes, with their texts and files in one file, and a picture of each.
+// The scenes of the gallery: a picture of each scene, and scenes.json with all recipes and the files that they read.
 const { Session, load } = await import(pathToFileURL(join(engine, "meshwright.js")).href);
 await load();
 const names = readFileSync(join(root, "tests/digests.txt"), "utf8").trim().split("\n").map((line) => line.split(" ")[0]);

@@ -2,7 +2,7 @@
 import { snippetCompletion, startCompletion } from "@codemirror/autocomplete";
 import { around } from "./ron.js";
 
-/// Operations on whole meshes whose examples work for any mesh.
+/// Operations on whole meshes. The example of each of these operations works for any mesh.
 const ON_MESHES = ["Transform", "Triangulate", "FillHoles", "Reverse", "Symmetrize", "Simplify", "Remesh", "Smooth", "Displace", "Bend",
     "Twist", "Taper"];
 
@@ -164,8 +164,8 @@ export class Completions {
         });
     }
 
-    /// Returns the fields of an operation that can have inputs in a form. `type` is `number`, `boolean`, `choice` or
-    /// `other`. `names` has the name of the field and its earlier names, and `standard` is the default value.
+    /// Returns those fields of an operation for which a form can have inputs. `type` is `number`, `boolean`, `choice`
+    /// or `other`. `names` has the name of the field and its earlier names, and `standard` is the default value.
     inputs(operation) {
         const properties = this.#examples.has(operation) ? this.#schema.$defs[operation]?.properties ?? {} : {};
         const fields = Object.entries(properties).filter(([, node]) => !JSON.stringify(node).includes("Selection\""));

@@ -24,8 +24,9 @@ export class Engine {
     /// The content of each file by its path, without the outputs.
     files = new Map();
 
-    /// Compiles the engine, and starts a worker. `download` has the response with the engine and the folder of its
-    /// worker. Until the engine is loaded, only `write` and `remove` can be used.
+    /// Compiles the engine, and starts a worker. `download` gives the `response` that contains the engine, and the
+    /// `folder` that contains the script of its worker. Until the engine is loaded, only `write` and `remove` can be
+    /// used.
     async load(download) {
         const { response, folder } = await download;
         this.#folder = folder;

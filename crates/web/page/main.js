@@ -22,8 +22,8 @@ let running = true;
 /// Whether a check, or a run, was requested while the engine was busy.
 let checkAgain = false;
 let runAgain = false;
-/// Whether the recipe runs when an input changes or a step is added. If the last run of the recipe did not end, the
-/// recipe is only checked until the visitor runs it.
+/// Whether the recipe runs when an input changes or a step is added. If the last run of the recipe did not end, changes
+/// only check the recipe, and the visitor must press Run to run it again.
 let trusted = true;
 /// The step whose meshes are shown: `{ number, total, label, written }`, where `written` is the number of steps of the
 /// text that have run; `null` for the last step.
@@ -34,7 +34,7 @@ let showing = false;
 let sameRecipe = false;
 /// The axis that points upwards: "y", "z" or "auto".
 let up = "auto";
-/// Whether the text that is being opened must not be kept for the next visit.
+/// True while a text is opened that the browser must not keep for the next visit.
 let foreign = false;
 /// The text and the values of the last run. The problems and steps of this run are shown until the text or a value
 /// changes.

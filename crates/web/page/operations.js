@@ -1,5 +1,5 @@
 // The search field of the reference of operations. The reference lists operations, and the types of their parameters.
-// An entry is hidden if its name and summary do not contain all words of the search field.
+// An entry is shown only if every word of the search field occurs in its name or in its summary.
 const field = document.querySelector("#search");
 const entries = [...document.querySelectorAll("h2")].map((heading) => {
     const parts = [heading];

@@ -7,7 +7,8 @@ export class Parameters {
     /// The presets and parameters for which the inputs were made, as JSON.
     #declared = "[]";
 
-    /// `onChange` is called after a value has changed, and `onPreset` with the name of a preset that was chosen.
+    /// `onChange` is called after a value has changed. `onPreset` is called with the name of the preset that the
+    /// visitor has chosen.
     constructor(onChange, onPreset) {
         this.onChange = onChange;
         byId("preset").addEventListener("change", ({ target }) => {

@@ -1,7 +1,7 @@
 // Finds the element of a mesh that is nearest to a click.
 
-/// Finds the face that contains a triangle, and the elements of this face that have the given kind ("vertex", "edge" or
-/// "face"). Returns the one that is nearest to the point `at` of the page, as `{ kind, number, vertices }`. `place`
+/// Finds the face that contains a triangle. Among the elements of this face that have the given kind ("vertex", "edge"
+/// or "face"), returns the element nearest to the point `at` of the page, as `{ kind, number, vertices }`. `place`
 /// returns where a vertex is on the page.
 export function nearest(mesh, triangle, kind, at, place) {
     const face = mesh.faces[triangle];

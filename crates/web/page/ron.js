@@ -180,7 +180,7 @@ export function written(text, [begin, finish]) {
     return null;
 }
 
-/// Returns a text as a string of a recipe.
+/// Returns a text as a recipe writes it: in quotes, with escapes, and without control characters.
 export function quoted(text) {
     return `"${text.replace(/[\\"]/g, "\\$&").replace(/[\u0000-\u001f]/g, "")}"`;
 }

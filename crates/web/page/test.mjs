@@ -429,7 +429,7 @@ const tests = {
         await write(page, "(recipe: 1, steps: [\n    Cube(name: \"cube\", triangles: true),\n])");
         await run(page);
         await page.getByLabel("Edge", { exact: true }).check();
-        // The edge between the front and the right side of the cube, which is visible from the camera.
+        // The edge between the front and the right side of the cube. The camera sees this edge.
         const [v, w, x, y] = await page.evaluate(() => {
             const { view, meshes: [mesh] } = meshwright.stage;
             const corners = [0, 1, 2, 3, 4, 5, 6, 7].filter((i) => mesh.positions[3 * i] > 0 && mesh.positions[3 * i + 2] > 0);

@@ -23,15 +23,17 @@ export class View {
     #content = new THREE.Group();
     /// The earlier meshes, which were shown before the current ones.
     #earlier = new THREE.Group();
-    /// The fraction of the width, from 0 to 1, on which the earlier meshes are shown.
+    /// The earlier meshes are shown in the left part of the view. This is the width of this part, as a fraction from 0
+    /// to 1.
     #split = 0;
     #marks = new Marks();
     #center = new THREE.Vector3();
     #radius = 1;
     #style = { smooth: false, edges: true, up: "y" };
     #waiting = false;
-    /// Called after a click with two values. The first value is the element, as `{ mesh, kind, number, vertices }`, or
-    /// `null` for a click beside the meshes. The second value says whether the click adds to the picked elements.
+    /// Called with two arguments after a click. The first argument is the element, as
+    /// `{ mesh, kind, number, vertices }`, or `null` for a click beside the meshes. The second argument says whether
+    /// the click adds to the picked elements.
     onPick = () => {};
     kind = "face";
     /// Whether a click adds to the selection without Shift.

@@ -1,4 +1,4 @@
-//! The arrays of a mesh that a view draws and picks.
+//! Converts a mesh to arrays, with which a view draws the mesh and picks its elements.
 
 use geometry::triangulate::Cutter;
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};

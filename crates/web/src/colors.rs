@@ -36,9 +36,9 @@ pub struct MeshColors {
 pub enum Per {
     /// The vertices, in the order of their ids.
     Vertex,
-    /// The corners of the triangles of [`Arrays`](crate::Arrays), in their order.
+    /// The corners of the triangles, in the order of [`Arrays`](crate::Arrays).
     Corner,
-    /// The edges of [`Arrays`](crate::Arrays), in their order.
+    /// The edges, in the order of [`Arrays`](crate::Arrays).
     Edge,
 }
 

@@ -10,8 +10,8 @@ use scene::Scene;
 use super::Parts;
 use crate::view_pane::{Gizmo, Tool, ViewEvent};
 
-/// The default angle at which picking by angle stops, in degrees. The user can change this angle in the text of the
-/// selection.
+/// If faces are picked up to sharp edges, an edge counts as sharp above this angle in degrees. The user can change this
+/// angle in the text of the selection.
 const ANGLE: u32 = 30;
 
 impl Parts {

@@ -132,7 +132,7 @@ fn linear(tree: &Tree<Pane>, id: TileId) -> Option<&Linear> {
     }
 }
 
-/// Returns the shares of the tiles of a container, rounded, with the sum 1.
+/// Returns the fraction of a container that each of its tiles fills, rounded to three decimals.
 fn shares(tree: &Tree<Pane>, id: TileId) -> Option<Vec<f32>> {
     let linear = linear(tree, id)?;
     let all: Vec<f32> = linear

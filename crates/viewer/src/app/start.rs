@@ -46,8 +46,8 @@ pub struct Opened {
 impl Start {
     /// Creates the editor, and opens the file if there is one.
     pub fn open(self) -> Opened {
-        // The unsaved texts of other editors are read before this editor creates its own journal, so that its journal
-        // is not among them.
+        // The unsaved texts of other editors are read before this editor creates its own journal. Otherwise, the new
+        // journal would be read too.
         let mut files = Files::new(self.state_folder.clone());
         let settings = Settings {
             journals: files::journals(self.state_folder.as_deref()),

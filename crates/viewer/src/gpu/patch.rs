@@ -63,8 +63,8 @@ pub(super) fn patch(queue: &wgpu::Queue, uploaded: &Uploaded, new: &Key) -> bool
     true
 }
 
-/// Returns the faces of the half-edges that differ, in the order of the face ids. All returned faces are triangles of
-/// both meshes. `None` if the meshes differ in other ways.
+/// Returns the faces of those half-edges that differ between the two meshes, in the order of the face ids. All returned
+/// faces are triangles of both meshes. Returns `None` if the meshes differ in other ways.
 fn changed_faces(a: &Mesh, b: &Mesh) -> Option<Vec<FaceId>> {
     let is_same_size = a.is_dense()
         && b.is_dense()

@@ -53,8 +53,7 @@ impl Textures {
     }
 }
 
-/// Uploads a texture with its mipmap. The first mipmap levels of an image that is too large for the device are left
-/// out.
+/// Uploads a texture with its mipmap. If the image is too large for the device, its first mipmap levels are left out.
 fn upload(device: &wgpu::Device, queue: &wgpu::Queue, texture: &Texture) -> Sampled {
     let largest = device.limits().max_texture_dimension_2d;
     let [width, height] = texture.size();

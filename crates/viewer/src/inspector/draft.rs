@@ -60,8 +60,8 @@ impl Draft {
         }
     }
 
-    /// Draws the parameters, and applies the changes that the user makes. A parameter that takes the picked elements
-    /// shows `selection`, which describes them.
+    /// Draws the parameters, and applies the changes that the user makes. `selection` describes the picked elements. If
+    /// the step uses the picked elements, the parameter that takes them shows `selection`.
     fn fields(&mut self, ui: &mut Ui, selection: Option<&SelectionText>) {
         let picked = selection.and_then(|selection| self.panel.picked_value(selection));
         for i in 0..self.panel.fields.len() {

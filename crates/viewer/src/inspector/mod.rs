@@ -203,7 +203,7 @@ fn recipe_parameters(ui: &mut Ui, parts: &mut Parts) {
     }
 }
 
-/// Converts a parameter of the recipe to a field, as for a parameter of an operation.
+/// Converts a parameter of the recipe to a field of a panel, so that the field's widget can show the parameter.
 fn panel_field(name: &str, param: &Param, value: String) -> editor::PanelField {
     let limits = |min: Option<f64>, max: Option<f64>| editor::Limits {
         min,

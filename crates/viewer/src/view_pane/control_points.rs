@@ -21,7 +21,8 @@ pub(super) struct PointDrag {
 }
 
 impl ViewPane {
-    /// Finds the control point under the cursor, and handles drags. Returns whether a control point is dragged.
+    /// Finds the control point under the cursor, and moves a control point with the mouse. Returns whether the user is
+    /// dragging a control point.
     pub(super) fn drag_control_point(
         &mut self,
         ui: &Ui,

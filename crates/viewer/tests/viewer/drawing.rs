@@ -57,7 +57,7 @@ impl Stage {
         self.painter.read().unwrap()
     }
 
-    /// Returns the picture of the scene that the crate `render` draws without a graphics card. The background is
+    /// Draws the scene with the crate `render`, without a graphics card, and returns the picture. The background is
     /// transparent.
     pub(crate) fn expected(&self, scene: &Scene, shading: Shading) -> Image {
         let camera = render::Camera::LookAt {

@@ -45,8 +45,8 @@ fn times_of_growing_meshes() {
     }
 }
 
-/// Prints the time until the frame of the key press is drawn, the time until the frame with the changed mesh is drawn,
-/// and the time of the step alone.
+/// Prints three times: from the key press to the next frame, from the key press to the changed scene, and the time of
+/// the step alone.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_an_edit_of_a_million_triangles() {
@@ -158,8 +158,8 @@ fn times_of_picks_on_a_million_triangles() {
     );
 }
 
-/// Measures how long a window with a file of a million triangles takes to draw its first frame. Compares this time with
-/// the time of `meshwright info` for the file. Needs the program `meshwright` of the same profile.
+/// Opens a file of a million triangles, and measures the time until the window shows the scene. Compares this time with
+/// the time that `meshwright info` takes for the same file. Needs the program `meshwright` of the same profile.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_opening_a_file_of_a_million_triangles() {

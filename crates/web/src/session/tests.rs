@@ -170,7 +170,7 @@ fn each_instance_of_a_mesh_has_a_placement() {
     assert!(session.placements("none").is_empty());
 }
 
-/// Returns whether each step of a run was taken from the last run.
+/// Returns, for each step of a run, whether its result was taken from the last run.
 fn cached(result: &Json) -> Vec<bool> {
     let steps = result["steps"].as_array().unwrap();
     steps.iter().map(|step| step["cached"] == true).collect()

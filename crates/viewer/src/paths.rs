@@ -14,7 +14,7 @@ use crate::{files, help};
 /// portal.
 const SHORTEST_DIALOG: Duration = Duration::from_millis(200);
 
-/// The entry for the folder that contains the listed folder.
+/// The entry of the list for the parent folder.
 const PARENT: &str = "..";
 
 /// Why the user is asked for the path of a file.

@@ -39,8 +39,9 @@ impl Player {
         &self.scene
     }
 
-    /// Returns the edge of the edit that was done last, and the name of its object. Before the first edit, returns the
-    /// edge of the next edit. Returns `None` if the edit has removed the edge, or if the edit moves vertices.
+    /// Returns the edge that was edited last, and the name of the object that has this edge. Before the first edit,
+    /// returns the edge that will be edited first. Returns `None` if the edit has removed the edge, or if the edit
+    /// moves vertices.
     pub(crate) fn edge(&self) -> Option<(&str, EdgeId)> {
         let edge = self.shown()?.edge?;
         (self.play.mesh().has_edge(edge)).then_some((self.object.as_str(), edge))

@@ -35,7 +35,7 @@ impl Kept {
         let known = self.steps.iter().zip(&keys.steps);
         let known = known.take_while(|((before, _), now)| before == *now);
         // A step that writes files always runs again. The files record the values of all parameters, but the key of the
-        // step does not depend on all of them.
+        // step does not depend on all parameters.
         let forecast = &loaded.forecast.steps;
         let writes = forecast.iter().position(|step| step.n_outputs > 0);
         let first = known.count().min(writes.unwrap_or(usize::MAX));
@@ -132,7 +132,7 @@ mod tests {
             kept.add_scene(scene);
         }
         let is_kept = || -> Vec<bool> { kept.scenes().after.iter().map(Option::is_some).collect() };
-        // A scene that shares its mesh with the scene before it needs no memory for the mesh.
+        // The memory of a mesh is counted once, even if two scenes share the mesh.
         kept.scenes().keep_last(3 * one - 1);
         assert_eq!(is_kept(), [true; 3]);
         kept.scenes().keep_last(2 * one - 1);

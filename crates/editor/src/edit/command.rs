@@ -186,8 +186,8 @@ impl Editor {
         })
     }
 
-    /// Returns the initial distance of a new extrusion: a fifth of the size of the object with the picked elements. The
-    /// user can then change the distance.
+    /// Returns the initial distance of a new extrusion: a fifth of the size of the object to which the picked elements
+    /// belong. The user can then change the distance.
     fn extrusion(&self) -> String {
         let object = self
             .picked()
@@ -373,8 +373,8 @@ fn unset_selection(panel: &Panel) -> Option<(&PanelField, Option<ElementKind>)> 
 }
 
 impl Panel {
-    /// Whether a command can give picked elements of this kind to the operation without converting them to another
-    /// kind.
+    /// Whether the operation takes picked elements of this kind directly, without a conversion to another kind of
+    /// elements.
     pub fn takes_picked(&self, kind: ElementKind) -> bool {
         unset_selection(self).is_some_and(|(_, wanted)| wanted.is_none_or(|wanted| wanted == kind))
     }

@@ -122,7 +122,8 @@ impl Editor {
         saved
     }
 
-    /// Returns the text of the recipe, but with the paths of input files relative to the folder of `path`.
+    /// Returns the text of the recipe for the file `path`. In this text, the paths of input files are relative to the
+    /// folder of `path`.
     fn with_moved_inputs(&self, path: &Path) -> Option<String> {
         let rebase = Rebase {
             from: self.document.path().parent()?,

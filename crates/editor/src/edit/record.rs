@@ -10,10 +10,10 @@ use super::{CommandError, Editor};
 use crate::text::{self, Outline};
 
 impl Editor {
-    /// Adds expectations about the scene at the step cursor: how many objects, vertices, edges and faces the scene has,
-    /// and its Euler characteristic. Also adds `Manifold` and `Closed` if these expectations hold. If the step cursor
-    /// is not at the end of the recipe, the expectations are checked at the cursor. They refer to the step before the
-    /// cursor by its id. If this step has no id, it gets one. Returns the expectations.
+    /// Adds expectations about the scene at the step cursor: the numbers of objects, vertices, edges and faces, and the
+    /// Euler characteristic. Also adds `Manifold` and `Closed` if these expectations hold. If the step cursor is not at
+    /// the end of the recipe, the expectations are checked at the cursor. They refer to the step before the cursor by
+    /// its id. If this step has no id, it gets one. Returns the expectations.
     ///
     /// # Errors
     ///

@@ -42,7 +42,7 @@ pub struct PanelField {
     pub kind: FieldKind,
     /// The type of the parameter in words, as in the reference of operations.
     pub type_name: String,
-    /// The variants of the parameter's type, which are offered while the user types.
+    /// If the parameter is an enumeration, its variants. They are suggested while the user enters a value.
     pub variants: Vec<VariantDoc>,
     /// The default value as RON. `None` if the parameter is required.
     pub default: Option<String>,

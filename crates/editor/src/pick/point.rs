@@ -36,7 +36,7 @@ pub enum PickMode {
     Vertex,
     /// An edge.
     Edge,
-    /// A half-edge: of the two halves of the nearest edge, the half on the side of the pixel.
+    /// A half-edge: the half of the nearest edge that is on the same side of the edge as the pixel.
     HalfEdge,
     /// A face.
     Face,
@@ -196,9 +196,8 @@ struct Search<'a, 's> {
 }
 
 impl Search<'_, '_> {
-    /// Searches a face and the faces around it. Adds the vertices and edges of these faces that are near the pixel.
-    /// Faces around the given face are searched only if they show the same side (front or back) to the viewer as the
-    /// given face.
+    /// Searches a face and the faces around it. Adds the vertices and edges of these faces that are near the pixel. If
+    /// the viewer sees the front of the given face, faces that show their back are skipped, and the other way round.
     fn around(&mut self, at: usize, face: FaceId) {
         let target = &self.targets[at];
         let (_, direction) = target.view.ray(self.pixel);
@@ -236,7 +235,7 @@ impl Search<'_, '_> {
         });
         for corners in faces {
             for (k, h) in corners.into_iter().enumerate() {
-                // A side of a triangle that is not an edge of the mesh is a diagonal inside a face, and is skipped.
+                // Some sides of triangles are diagonals inside a face, not edges of the mesh. They are skipped.
                 if target.mesh.next(h) == corners[(k + 1) % 3] {
                     self.add(at, h);
                 }

@@ -11,7 +11,7 @@ use ron_tree::{Lexer, Span, TokenKind};
 
 use super::Edits;
 
-/// The additional indentation of the entries of a container.
+/// How much farther the entries of a container are indented than the container itself.
 const INDENT: &str = "    ";
 
 /// The part of a line after an entry.

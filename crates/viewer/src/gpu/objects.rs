@@ -131,7 +131,7 @@ pub(super) struct ChunkBuffers {
     pub(super) texture: Option<Arc<render::Texture>>,
 }
 
-/// The buffers of a surface whose triangle `i` is face `i` of its mesh.
+/// The buffers of a surface in which each triangle has the same index as its face in the mesh.
 pub(super) struct Simple {
     /// The triangles of each chunk.
     pub(super) triangles: Vec<wgpu::Buffer>,

@@ -1,8 +1,8 @@
-//! The pictures of the reference: an example before and after an operation.
+//! The pictures of operations: an example before and after each operation.
 
 use eframe::egui::{ColorImage, Context, Id, Image, TextureHandle, TextureOptions, Ui, Vec2};
 
-/// The name of an operation, and the PNG files of an example before and after it.
+/// The name of an operation, and the PNG files of an example before and after the operation.
 type Pictures = (&'static str, Option<&'static [u8]>, Option<&'static [u8]>);
 
 const PICTURES: &[Pictures] = &include!(concat!(env!("OUT_DIR"), "/pictures.rs"));

@@ -176,8 +176,8 @@ fn cached(result: &Json) -> Vec<bool> {
     steps.iter().map(|step| step["cached"] == true).collect()
 }
 
-/// Runs a recipe in a session that has kept results and in a new session, checks that the results are equal, and
-/// returns them.
+/// Runs a recipe in two sessions: the given session, which has kept results, and a new session. Checks that the results
+/// are equal, and returns the result of the given session.
 fn run_as_new(session: &mut Session, text: &str) -> Json {
     let result = run(session, text);
     let mut new = Session::new();

@@ -189,7 +189,7 @@ const GROUPS: &[(&str, &[Row])] = &[
             (
                 Action::Shrink,
                 &["Minus"],
-                "remove the outermost elements from the picked elements",
+                "unpick the elements at the border of the picked elements",
             ),
             (
                 Action::EdgeLoop,
@@ -310,7 +310,7 @@ const GROUPS: &[(&str, &[Row])] = &[
             (
                 Action::Cancel,
                 &["Escape"],
-                "close what is open, or cancel the run",
+                "close the open dialog or panel, or cancel the run",
             ),
             (Action::Help, &["H", "F1"], "show or hide this help"),
         ],

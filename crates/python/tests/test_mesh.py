@@ -288,7 +288,7 @@ def test_distances(ball: mw.Mesh, box: mw.Mesh) -> None:
 
 def test_simplify_names_the_measured_attributes_that_influence_it() -> None:
     ball = mw.Scene().icosahedron(name="ball").mesh().loop_subdivide(levels=2)
-    note = "attributes whose changes count toward the error, like changes of the shape: curvature"
+    note = "attributes whose changes count as changes of the surface: curvature"
     assert note in ball.measure(of="MeanCurvature", name="curvature").simplify(faces=100).notes
     assert ball.simplify(faces=100).notes == ()
 

@@ -125,7 +125,7 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
             "Run steps if a recipe parameter has a given value",
             json!({
                 "param": { "type": "string", "description": "The name of the parameter." },
-                "is": { "description": "The value to compare the parameter with. Defaults to `true`." },
+                "is": { "description": "The value with which the parameter is compared. Defaults to `true`." },
                 "steps": steps("The steps that run if the parameter has the value."),
                 "otherwise": steps("The steps that run if the parameter has a different value."),
             }),
@@ -233,12 +233,12 @@ fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
             },
             "enabled": {
                 "type": "boolean",
-                "description": "Whether the step runs. Defaults to `true`. A disabled step is not checked, and expectations whose `after` names it are not checked either.",
+                "description": "Whether the step runs. Defaults to `true`. If `false`, the step is not checked. Expectations that name the step in `after` are not checked either.",
             },
             "note": { "type": "string", "description": "A comment on the step, which `meshwright run --explain` and `check --explain` print." },
             "refused": described(
                 &reference::<Refusal>(defined),
-                "The step must be refused for this reason, and leave the scene unchanged.",
+                "The operation must refuse its input for this reason, and leave the scene unchanged.",
             ),
             "on_loss": described(
                 &reference::<OnLoss>(defined),

@@ -151,8 +151,7 @@ fn find_fix<'t>(
     Ok((value, fix))
 }
 
-const NOT_RECORDED: &str =
-    "this is not a recorded value (`eq`, `is`, `Bounds`, `Digest`, `Output`), so it is not updated";
+const NOT_RECORDED: &str = "only recorded values (`eq`, `is`, `Bounds`, `Digest`, `Output`) are updated, and this is not one of them";
 
 /// Returns the expectation at `span`.
 fn expectation_at(tree: &Value, span: Span) -> Option<&Value> {

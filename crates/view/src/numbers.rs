@@ -130,7 +130,7 @@ impl ColorBy {
                     let existing = existing_attributes(names.collect());
                     format!("{}; {existing}", missing_attribute(name))
                 }
-                _ => "expected a mesh to color by numbers, found none in the scene".to_owned(),
+                _ => "expected a mesh whose quantities can be shown as colors, found no mesh in the scene".to_owned(),
             };
             return Err(PictureError::Style(message));
         }

@@ -105,7 +105,7 @@ fn shading_combo(ui: &mut Ui, view: &mut ViewPane) {
     combo
         .response
         .accessible_name("Shading")
-        .on_hover_text("Shading (Q switches smooth and flat)");
+        .on_hover_text("Shading (Q switches between smooth and flat)");
 }
 
 fn wireframe_combo(ui: &mut Ui, view: &mut ViewPane) {

@@ -137,7 +137,10 @@ impl Operation for Join {
             None => self.joined(&parts, cx)?,
         };
         if let Some(placed) = placed {
-            report = report.count("instances whose placements were applied", placed.len());
+            report = report.count(
+                "instances whose transforms were applied to their points",
+                placed.len(),
+            );
         }
         let mut joined = joined;
         skin::report(

@@ -161,7 +161,7 @@ impl CurveFigure {
         }
         if n_panels > MAX_PANELS as u64 {
             let message = format!(
-                "expected at most {MAX_PANELS} panels in the figure, found {n_panels}: a curve has one panel for each `t` or, with `by_level`, one panel for each level of each `t`"
+                "expected at most {MAX_PANELS} panels in the figure, found {n_panels}: each curve has one panel for each `t`; with `by_level`, it has one panel for each `t` and each level"
             );
             problems.push(Problem::error(message).at(["t"]));
         } else if n_points > MAX_POINTS as u64 {

@@ -90,7 +90,7 @@ impl Operation for HalfEdgeFigure {
         figure_file::write(&self.path, &figure, self.scale, cx)?;
         cx.advance("draw", 1, 1)?;
         Ok(Report::changed(0).count(
-            "faces not drawn, because they face away from the viewer or are seen nearly edge-on",
+            "faces not drawn, because their normals point away from the viewer or they are seen nearly edge-on",
             n_hidden,
         ))
     }

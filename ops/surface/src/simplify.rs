@@ -223,7 +223,7 @@ impl MeshOperation for Simplify {
         }
         if before as u64 <= goal {
             report = report.note(format!(
-                "the mesh does not change, because its number of faces, {before}, does not exceed the requested number, {goal}"
+                "the mesh does not change, because it has {before} faces, and {goal} are allowed"
             ));
         }
         if after < before {
@@ -246,7 +246,7 @@ pub(crate) fn note_quantities(mesh: &Mesh, report: &mut Report) {
     let names: Vec<&str> = columns.filter(is_quantity).map(|c| &*c.name).collect();
     if !names.is_empty() {
         report.notes.push(format!(
-            "attributes whose changes count toward the error, like changes of the shape: {}",
+            "attributes whose changes count as changes of the surface: {}",
             names.join(", ")
         ));
     }
@@ -333,9 +333,7 @@ mod tests {
         let (_, report) = try_applied(&step("(faces: 99)"), shapes::icosahedron()).unwrap();
         assert_eq!(
             report.notes,
-            [
-                "the mesh does not change, because its number of faces, 20, does not exceed the requested number, 99"
-            ]
+            ["the mesh does not change, because it has 20 faces, and 99 are allowed"]
         );
         let triangle = vec![mesh::DVec3::ZERO, mesh::DVec3::X, mesh::DVec3::Y];
         let triangle = Mesh::from_polygons(triangle, &[[0, 1, 2]]).unwrap().0;
@@ -360,8 +358,7 @@ mod tests {
             mesh.insert_column(Domain::Vertex, Column { name, rule, values });
         }
         let (_, report) = try_applied(&step("(faces: 12)"), mesh.clone()).unwrap();
-        let note =
-            "attributes whose changes count toward the error, like changes of the shape: curvature";
+        let note = "attributes whose changes count as changes of the surface: curvature";
         assert_eq!(report.notes, [note]);
         let (_, report) = try_applied(&step("(faces: 20)"), mesh).unwrap();
         assert!(!report.notes.contains(&note.to_owned()));

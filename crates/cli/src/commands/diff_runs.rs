@@ -138,7 +138,10 @@ impl Run {
         if n != m {
             let longer = if n > m { self } else { other };
             let label = longer.steps[n.min(m)]["label"].as_str().unwrap_or("?");
-            let place = format!("step {}, {label}, which only one run has", n.min(m) + 1);
+            let place = format!(
+                "step {}, {label} (only one run has this step)",
+                n.min(m) + 1
+            );
             return (Some(place), Vec::new());
         }
         for (event, their) in self.end.iter().zip(&other.end) {

@@ -178,7 +178,10 @@ fn joining_applies_the_placements_of_all_instances() {
     let mut scene = car();
     let before = [points(&scene, "plain"), points(&scene, "wheel")].concat();
     let report = run::<Join>(&mut scene, r#"(objects: ["plain", "wheel"], name: "all")"#);
-    assert_eq!(report.notes, ["instances whose placements were applied: 3"]);
+    assert_eq!(
+        report.notes,
+        ["instances whose transforms were applied to their points: 3"]
+    );
     assert_eq!(
         scene.object("all").unwrap().as_mesh().unwrap().positions(),
         before

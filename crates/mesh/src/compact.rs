@@ -1,7 +1,8 @@
 //! Removes dead elements from the arrays.
 
 use crate::attribute::Sources;
-use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId, parallel};
+use crate::parallel::{self, BLOCK};
+use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
 /// Maps the ids of elements before a call of [`Mesh::compact`] to their ids after the call. Dead elements map to
 /// `NONE`.
@@ -34,14 +35,15 @@ impl Mesh {
         if self.is_dense() {
             return None;
         }
-        let vertices: Vec<VertexId> = self.vertices().collect();
-        let edges: Vec<EdgeId> = self.edges().collect();
-        let faces: Vec<FaceId> = self.faces().collect();
-        let corners: Vec<HalfEdgeId> = self.half_edges().collect();
+        let (vertices, new_vertices) = self.living_and_new();
+        let (edges, new_edges) = self.living_and_new::<EdgeId>();
+        let (faces, new_faces) = self.living_and_new();
+        let corner = |i: usize| edges[i / 2].half_edges()[i % 2];
+        let corners: Vec<HalfEdgeId> = parallel::collect(2 * edges.len(), corner);
         let map = Renumbering {
-            vertices: inverse(&vertices, self.positions.len()),
-            edges: inverse(&edges, self.connectivity.next.len() / 2),
-            faces: inverse(&faces, self.connectivity.face_half_edge.len()),
+            vertices: new_vertices,
+            edges: new_edges,
+            faces: new_faces,
         };
         let old = &*self;
         let half_edge = |h: Option<HalfEdgeId>| h.map_or(HalfEdgeId::NONE, |h| map.half_edge(h));
@@ -66,19 +68,33 @@ impl Mesh {
         self.replace(new);
         Some(map)
     }
+
+    /// Returns the living elements in order, and the new id of each element: its position among the living elements, or
+    /// `NONE` if the element is dead.
+    fn living_and_new<I: Id>(&self) -> (Vec<I>, Vec<I>) {
+        let n = self.domain_len(I::DOMAIN);
+        let living = parallel::blocks(n, |block| {
+            let ids = block.map(I::new).filter(|&id| self.is_living(id));
+            ids.collect::<Vec<I>>()
+        });
+        let mut new = vec![I::NONE; n];
+        let mut n_before = 0;
+        let blocks = new.chunks_mut(BLOCK).zip(&living).map(|(new, living)| {
+            let first = n_before;
+            n_before += living.len();
+            (first, new, living)
+        });
+        parallel::consume(blocks, |_, (first, new, living)| {
+            for (i, id) in (first..).zip(living) {
+                new[id.index() % BLOCK] = I::new(i);
+            }
+        });
+        (living.concat(), new)
+    }
 }
 
 fn each<I: Id, T: Send>(kept: &[I], value: impl Fn(I) -> T + Sync) -> Vec<T> {
     parallel::collect(kept.len(), |i| value(kept[i]))
-}
-
-/// Returns, for each index below `n`, the place of this index in `kept`; `NONE` if `kept` does not contain it.
-fn inverse<I: Id>(kept: &[I], n: usize) -> Vec<I> {
-    let mut map = vec![I::NONE; n];
-    for (new, old) in kept.iter().enumerate() {
-        map[old.index()] = I::new(new);
-    }
-    map
 }
 
 #[cfg(test)]

@@ -22,8 +22,6 @@ pub(super) enum State {
 /// The properties of a vertex from which the costs of its edges are computed.
 #[derive(Clone, Copy)]
 pub(super) struct Node {
-    /// The position, in scaled coordinates.
-    pub(super) point: DVec3,
     pub(super) quadric: Quadric,
     pub(super) spread: Spread,
     pub(super) kind: Kind,
@@ -107,6 +105,11 @@ impl<'a> Collapser<'a> {
         })
     }
 
+    /// Returns the position of a vertex, in scaled coordinates.
+    pub(super) fn position(&self, v: VertexId) -> DVec3 {
+        (self.mesh.position(v) - self.center) * self.scale
+    }
+
     /// Removes the gaps that removed elements have left in the mesh and in all lists. Smaller lists fit better into the
     /// caches of the processor. The order of the elements does not change.
     pub(super) fn compact(&mut self) {
@@ -168,7 +171,6 @@ fn nodes(
             }
         }
         Node {
-            point: place(v),
             quadric,
             spread,
             kind,

@@ -4,7 +4,7 @@ use mesh::{Id, parallel};
 
 /// Returns the old indices of the elements that still exist. `map` contains the new id of each old element.
 pub(super) fn kept<I: Id>(map: &[I]) -> Vec<usize> {
-    (0..map.len()).filter(|&i| map[i] != I::NONE).collect()
+    parallel::filter(map.len(), |i| map[i] != I::NONE)
 }
 
 /// Keeps only the values at the given indices.

@@ -1,6 +1,6 @@
 //! A queue of edges, ordered by the cost of their collapse, the lowest cost first.
 
-use mesh::EdgeId;
+use mesh::{EdgeId, parallel};
 
 /// An edge in the queue, with the pass in which its cost was computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,12 +60,13 @@ impl Queue {
 
     /// Gives new ids to all edges, and removes edges that no longer exist. `map` contains the new id of each edge.
     pub(super) fn renumber(&mut self, map: &[EdgeId]) {
-        for level in &mut self.levels {
+        let levels = self.levels.iter_mut().filter(|level| !level.is_empty());
+        parallel::consume(levels, |_, level| {
             level.retain_mut(|entry| {
                 entry.edge = map[entry.edge.index()];
                 entry.edge != EdgeId::NONE
             });
-        }
+        });
     }
 
     /// Begins the next pass, and replaces the contents of `edges` by the edges of this pass. Returns whether the pass

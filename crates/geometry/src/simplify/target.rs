@@ -76,7 +76,7 @@ impl Collapser<'_> {
                 .fold(placing, |sum, pair| sum + appearance.placing(pair));
         }
         let weak = spread.quadric(FIRMNESS);
-        let points = [from.point, to.point];
+        let points = ends.map(|v| self.position(v));
         // If there is an error limit, a boundary edge must collapse to one of its ends. A bound on the distance is
         // known only for these two points.
         let end = end.or_else(|| {
@@ -169,10 +169,6 @@ impl Collapser<'_> {
             return Err(Blocked::Turned);
         }
         Ok(Some((around, merged)))
-    }
-
-    pub(super) fn position(&self, v: VertexId) -> DVec3 {
-        self.nodes[v.index()].point
     }
 
     /// Checks whether the labels (tags and whole numbers) of the ends, the lines, and the directions of the triangles

@@ -52,25 +52,26 @@ class SceneOperations:
         ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). Files in all of these formats except ``.glb`` and
         ``.mws`` can be compressed with gzip. The name of a compressed file ends with ``.gz``, as in ``a.obj.gz``. An
         OBJ file becomes one object of the scene. Objects and groups inside an OBJ file become tags (named sets) of
-        faces: a line ``o hat`` gives the tag ``o="hat"``, and a line ``g hat`` gives the tag ``hat``. With
+        faces. For example, a line ``o hat`` gives the tag ``o="hat"``, and a line ``g hat`` gives the tag ``hat``. With
         ``placements="Keep"`` (the default), each mesh of a glTF file becomes an object if at least one node references
         the mesh. If exactly one node references the mesh, the object gets the name of the node. If several nodes
         reference the mesh, the object gets the name of the mesh. With ``placements="Keep"``, the scene also keeps the
         nodes, cameras, lights, skins, morph targets and animations of the glTF file. In a COLLADA file (``.dae``), each
         node with a mesh becomes an object. If the scene cannot store some of the content of the file, the report lists
-        and counts this content. Image files of materials are read from the folder of the model or of its material
-        library. If two successive corners of a face are at the same vertex, the second of these corners is removed. If
-        the face then has fewer than three corners or still contains a vertex twice, the face is left out.
+        and counts this content. The image files of materials are read from the folder that contains the model or its
+        material library. If two successive corners of a face are at the same vertex, the second of these corners is
+        removed. If the face then has fewer than three corners or still contains a vertex twice, the face is left out.
 
         Example: ``scene.load(path="teapot.bez")``, in a recipe ``Load(path: "teapot.bez")``
 
         :param path: The file. For a scene, a relative path is relative to the working directory; in a recipe, to the
             folder of the recipe.
-        :param name: The name for objects that have no name in the file. If an ``.mws`` file contains only one object,
-            this object also gets the name, even if it has a name in the file. If omitted, objects without a name get
-            the name of the file without its extension.
-        :param non_manifold: What to do if the faces do not form a manifold: if more than two faces share an edge, or if
-            several groups of faces meet only at a vertex, like the tips of two cones. Defaults to ``"Split"``.
+        :param name: The name for objects that have no name in the file. If an ``.mws`` file contains a single object,
+            the object gets this name even if the file already names it. If omitted, objects without a name get the name
+            of the file without its extension.
+        :param non_manifold: What to do if the faces do not form a manifold. This is the case if more than two faces
+            share an edge, or if several groups of faces meet only at a vertex, like the tips of two cones. Defaults to
+            ``"Split"``.
             ``"Split"``: Split edges and vertices until the faces form a manifold, and list the splits in the report.
             ``"Refuse"``: Refuse to read the file.
         :param orientation: What to do if neighboring faces have opposite orientations. Defaults to ``"Orient"``.
@@ -78,7 +79,7 @@ class SceneOperations:
                 reversed faces in the report.
             ``"Keep"``: Keep the orientation of every face.
         :param duplicates: What to do with a face that has the same vertices as an earlier face, in the same or in the
-            opposite order around the face. Defaults to ``"Keep"``.
+            opposite order. Defaults to ``"Keep"``.
             ``"Keep"``: Keep the elements.
             ``"Drop"``: Leave the elements out, and list them in the report.
         :param degenerate: What to do with zero-area faces. Defaults to ``"Keep"``.
@@ -129,9 +130,9 @@ class SceneOperations:
             taken from the recipe parameter ``name``, whose value must be a file path. For example, ``{input.stem}.glb``
             becomes ``bunny.glb`` if the parameter ``input`` is ``models/bunny.obj``.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
-            ``.gltf`` and ``.obj``, the image files of the model that was loaded are copied to the folder of the output
-            file. If images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, embedded
-            images are written to separate files, because OBJ cannot embed images.
+            ``.gltf`` and ``.obj``, the image files of the loaded model are copied to the folder of the output file. If
+            images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, embedded images
+            are written to separate files, because OBJ cannot embed images.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
             ``"Copy"``: Write the images to files in the folder of the written file.
             ``"Keep"``: Write only the paths of the images, as in the original model.
@@ -152,9 +153,9 @@ class SceneOperations:
                 is outside the range from 0 to 1, the whole set is not quantized. Defaults to 16.
             ``"color"``: The number of bits of each component of a color. Defaults to 8.
         :param weight_sets: For a skinned mesh in a ``.gltf`` or ``.glb`` file, the largest number of sets of joints for
-            each vertex. A set has four joints and their weights, so with 2, for example, up to eight joints move a
-            vertex. If omitted, the limit is the number of sets in the file from which the mesh was read, or 1 if this
-            number is not known.
+            each vertex. A set has four joints and their weights. For example, if the limit is 2, up to eight joints
+            move a vertex. If omitted, the limit is the number of sets in the file that the mesh was loaded from, or 1
+            if this number is not known.
         :param rows: For ``.csv``, the elements that have a row in the table: vertices, faces or corners. If omitted,
             vertices.
             ``"Vertices"``: Vertices.
@@ -182,7 +183,7 @@ class SceneOperations:
         ``faces``. If connected faces have opposite orientations, the faces with the less frequent orientation are
         reversed. If the orientations of the connected faces cannot be made to agree, as in a Moebius strip, none of
         these faces is reversed. Two kinds of edges are split: edges with more than two faces, and edges whose two faces
-        still have opposite orientations. At a split edge, faces with consistent orientations stay connected in pairs.
+        still have opposite orientations. At a split edge, pairs of faces with consistent orientations stay connected.
         Each pair, and each face that is left over, gets its own copy of the edge. A vertex is split if its faces form
         several fans (groups of faces that are connected by edges at the vertex). One fan keeps the vertex, and each
         other fan gets a copy of the vertex. The copies of vertices get the highest ids. The report and the command
@@ -192,8 +193,8 @@ class SceneOperations:
         recipe ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
 
         :param points: The points ``(x, y, z)``, in scene units. Points that no face uses become isolated vertices.
-        :param faces: The faces. Each face is a list of the indices of its points, counted from 0, in counter-clockwise
-            order seen from outside. A face has at least three points, without duplicates.
+        :param faces: The faces. Each face lists the indices of its points, in counter-clockwise order as seen from
+            outside. The first of the ``points`` has the index 0. A face has at least three points, without duplicates.
         :param name: The name of the new object. Defaults to ``polygons``. If another object already has this name,
             defaults to ``polygons.2``, ``polygons.3`` and so on.
         :param id, progress: See :meth:`Scene.apply`.
@@ -444,10 +445,10 @@ class SceneOperations:
         all objects that consist of Bezier patches. Each object becomes one mesh of the same name. Every patch is
         divided into ``segments`` x ``segments`` cells. Vertices, edges and faces of earlier patches have lower ids.
         Different patches share no vertices. If two patches have the same control points on a common side, their
-        vertices on this side have bitwise equal positions, so that ``weld(distance=0)`` joins the patches. If all
-        points of a side coincide, as at the pole of a teapot's lid, the side becomes one vertex. Patches without area
-        give no faces. The report counts the patches without area. The mesh has UVs only with ``uvs=True``, and normals
-        only with ``normals=True``.
+        vertices on this side have exactly equal positions. ``weld(distance=0)`` then joins the patches. If all points
+        of a side coincide, as at the pole of a teapot's lid, the side becomes one vertex. Patches without area give no
+        faces. The report counts the patches without area. The mesh has UVs only with ``uvs=True``, and normals only
+        with ``normals=True``.
 
         Example: ``scene.tessellate(segments=3)``, in a recipe ``Tessellate(segments: 3)``
 
@@ -501,8 +502,8 @@ class SceneOperations:
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
         with n points. The points of each later polyline divide the segments of the previous polyline in the ratio t : 1
-        - t, so each polyline has one point fewer than the previous polyline. The last polyline has a single point, the
-        point of the curve at ``t``.
+        - t. Each polyline therefore has one point fewer than the previous polyline. The last polyline has a single
+        point, the point of the curve at ``t``.
 
         Example: ``scene.curve_levels(t=0)``, in a recipe ``CurveLevels(t: 0)``
 
@@ -552,10 +553,10 @@ class SceneOperations:
         """Moves one control point of Bezier patches.
 
         The operation acts on the objects that its parameter ``on`` lists. Without ``on``, a method of a scene acts on
-        all objects that consist of Bezier patches. Control points of the same object that are at the same position move
-        together, so that patches with a common side stay joined. The point of a patch at the parameters (u, v) moves by
-        B(u) C(v) d. Here, d is the displacement of the control point, and B and C are the Bernstein polynomials of its
-        column and its row. The report counts the changed objects.
+        all objects that consist of Bezier patches. If other control points of the object are at the same position, they
+        also move, so that patches with a common side stay joined. The point of a patch at the parameters (u, v) moves
+        by B(u) C(v) d. Here, d is the displacement of the control point, B is the Bernstein polynomial of its column,
+        and C is the Bernstein polynomial of its row. The report counts the changed objects.
 
         Example: ``scene.move_patch_point(index=5, to=(1, 2, 0.5))``, in a recipe ``MovePatchPoint(index: 5, to: (1, 2,
         0.5))``
@@ -581,8 +582,8 @@ class SceneOperations:
         """Copies an object, with its attributes and materials, under a new name.
 
         The copy is added after all other objects. The elements of the copy have the same ids as in the original. If
-        nodes of the scene (as in glTF) place the object, each of these nodes gets a sibling node that places the copy
-        at the same location.
+        nodes of the scene (as in glTF) place the object, each of these nodes gets a sibling node. The sibling node
+        places the copy at the same location.
 
         Example: ``scene.copy(from_="mesh", to="new")``, in a recipe ``Copy(from: "mesh", to: "new")``
 
@@ -602,8 +603,8 @@ class SceneOperations:
         """Deletes objects.
 
         The remaining objects keep their order. If a node of the scene (as in glTF) places a deleted object, the
-        operation also removes the node. However, a node that has children, a camera or a light, or that is a joint of a
-        skin, is kept without the object.
+        operation also removes the node. However, if the node has children, a camera or a light, or is a joint of a
+        skin, the node is kept without the object.
 
         Example: ``scene.delete(objects=["mesh"])``, in a recipe ``Delete(objects: ["mesh"])``
 
@@ -624,7 +625,7 @@ class SceneOperations:
 
         The order of the objects does not change. If an object comes from a glTF file, the object, its nodes and its
         mesh each have a name, and these names can differ. A node or mesh with the old name of the object also gets the
-        new name. If no node has the old name, the mesh always gets the new name.
+        new name. If no node has the old name, the mesh gets the new name even if the mesh did not have the old name.
 
         Example: ``scene.rename(from_="mesh", to="new")``, in a recipe ``Rename(from: "mesh", to: "new")``
 
@@ -650,15 +651,15 @@ class SceneOperations:
         mesh in ``objects``, and the other meshes are removed. If nodes of the scene (as in glTF) place a mesh, the
         result contains a copy of the mesh for each of these nodes. The points of each copy are transformed by the
         transform of the node. The result keeps a skin only if all skinned parts have the same skin and each of them has
-        exactly one node. In this case, the result also keeps the node of the first skinned part, and parts without a
-        skin follow the first joint of the skin. If no skin is kept, skinned parts are joined in their current pose, and
-        the result has no node, because its points are already at their positions in the scene. The names and default
+        exactly one node. In this case, the result also keeps the node of the first skinned part. Parts without a skin
+        then follow the first joint of the skin. If no skin is kept, skinned parts are joined in their current pose. The
+        result then has no node, because its points are already at their positions in the scene. The names and default
         weights of morph targets are kept if they are the same in all parts that have morph targets.
 
-        If a part (one of the joined meshes) lacks an attribute that another part has, the attribute gets the value zero
-        in the part that lacks it. Missing material indices become -1 (no material). If a part has no normals, the
-        normals of all parts are dropped and reported as lost. If an attribute of a part has a different type than in
-        earlier parts, the attribute of this part is dropped and reported as lost. Equal materials become one material.
+        If only some of the parts have an attribute, the value of this attribute is zero in all other parts. Missing
+        material indices become -1 (no material). If a part has no normals, the normals of all parts are dropped and
+        reported as lost. If an attribute of a part has a different type than in earlier parts, the attribute of this
+        part is dropped and reported as lost. Equal materials become one material.
 
         Example: ``scene.join(objects=["mesh", "other"], name="joined")``, in a recipe ``Join(objects: ["mesh",
         "other"], name: "joined")``
@@ -732,13 +733,13 @@ class SceneOperations:
         three conditions hold: ``space`` is ``Scene``, the operation has no ``on``, and ``about`` is not ``Center``. The
         operation fails if a curve would leave the plane z = 0.
 
-        Ids do not change. If the points of a mesh change, the normals, tangents and deltas of morph targets of this
-        mesh are also transformed. Other attributes do not change. If the points are mirrored (one or three negative
-        factors in ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a
-        reversed face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches,
-        u and v are exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule
-        ``Drop``, such as tangents of corners, are removed by every step that changes the connectivity. Mirroring the
-        points reverses the faces, so it also removes the attributes with this rule.
+        Ids do not change. If the points of a mesh change, its normals, its tangents and the deltas of its morph targets
+        are also transformed. Other attributes do not change. If the points are mirrored (one or three negative factors
+        in ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed
+        face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v
+        are exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule ``Drop``,
+        such as tangents of corners, are removed by every step that changes the connectivity. Mirroring the points
+        reverses the faces, so it also removes the attributes with this rule.
 
         Example: ``scene.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``, in a recipe
         ``Transform(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))``
@@ -756,7 +757,7 @@ class SceneOperations:
             ``choice.Point(..)``: A point with the coordinates x, y, z.
         :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
-            ``"Object"``: The own space of each object.
+            ``"Object"``: The coordinate system in which the object stores its points.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
             that it supports.
         :param id, progress: See :meth:`Scene.apply`.
@@ -778,11 +779,11 @@ class SceneOperations:
         """Places copies of an object on a surface, at random positions that are evenly spread.
 
         Exactly ``count`` points are chosen so that no two of them are close together (Yuksel, "Sample Elimination for
-        Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so
-        copies need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The node of each
+        Generating Poisson Disk Sample Sets", 2015). Each copy is an instance: a node that references the object. Copies
+        therefore need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The node of each
         copy moves the origin of the object to one of the points. To make one mesh of all copies, use ``join()`` in a
-        later operation. If no node placed the object before the operation, the object is no longer visible at its
-        original position, only at the points.
+        later operation. If no node placed the object before the operation, the object disappears from its original
+        position and is visible only at the points.
 
         Without ``object``, the result is a mesh whose vertices are the chosen points. The mesh has no faces. Its vertex
         normals are the normals of the surface at the points.
@@ -820,14 +821,14 @@ class SceneOperations:
         Two vertices are linked if they are at most ``distance`` apart. Vertices that are connected by a chain of links
         merge into one, even if the ends of the chain are farther apart than ``distance``. Of the vertices that merge,
         the vertex with the lowest id remains, with its position and values. The other vertices are removed, so vertices
-        with higher ids get new ids. If several edges then join the same two vertices, they become one edge with the
-        values of the edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV
-        seams are kept.
+        with higher ids get new ids. If several edges then join the same two vertices, they become one edge. The merged
+        edge gets the values of the edge with the lowest id. Corner values, such as UVs, stay with the corners of the
+        faces, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations.
-        If all orientations in a connected part of the mesh can be made to agree, the operation reverses the faces with
-        the less frequent orientation. If faces are reversed, the report counts them, and the normals of vertices and
+        If possible, the operation then reverses faces, so that all faces of a connected part have the same orientation:
+        the more frequent one. The report counts the reversed faces. If faces are reversed, the normals of vertices and
         corners are dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three
         faces share an edge, one of these faces gets a copy of the edge. The report counts the copies. If no vertices
         merge, the mesh does not change.
@@ -855,9 +856,9 @@ class SceneOperations:
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the operation fails. No vertex moves, and all elements
         keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
-        are negated. Attributes with the edit rule ``Drop`` (removed by every change of the connectivity), such as
-        tangents of corners, are removed. Vertices, edges and faces keep all other values. The values of a corner stay
-        at the same vertex of the same face.
+        are negated. Attributes that do not survive changes of the connectivity (edit rule ``Drop``), such as tangents
+        of corners, are removed. Vertices, edges and faces keep all other values. The values of a corner stay at the
+        same vertex of the same face.
 
         Example: ``scene.reverse()``, in a recipe ``Reverse()``
 
@@ -879,26 +880,26 @@ class SceneOperations:
     ) -> Self:
         """Cuts polygons into triangles.
 
-        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
-        cut along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the
-        relative difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero
-        area or is turned over: clockwise where the face is counter-clockwise. If the diagonal that was chosen by length
-        or id is bad and the other diagonal is not bad, the other diagonal is used. A quadrilateral with a reflex corner
-        (an angle above 180 degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also
-        joined by an edge or by a diagonal of another face. A duplicate is replaced with the other diagonal if the other
-        diagonal is not a duplicate, and if either both diagonals are bad or neither is bad. The report counts the
-        duplicates that remain.
+        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the diagonal at the
+        vertex with the lowest id is used. Two lengths count as the same if the relative difference of their squares is
+        at most 1e-12. A diagonal is bad if one of its two triangles has zero area or is turned over. A triangle is
+        turned over if it is clockwise where the face is counter-clockwise. If exactly one diagonal is bad, the good
+        diagonal is used, regardless of lengths and ids. A quadrilateral with a reflex corner (an angle above 180
+        degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by
+        a diagonal of another face. A duplicate is replaced with the other diagonal of the quadrilateral, unless the
+        other diagonal is worse or also a duplicate. The report counts the duplicates that remain.
 
-        A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
-        into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
-        constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces
-        whose sides cross, faces with more than 4096 corners whose sides overlap, and faces with more than ten million
-        corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
-        id. The report counts these faces.
+        A face with more than four corners is projected along its normal. If the face has at most 4096 corners, it is
+        cut into triangles by ear clipping. A larger face is first cut into monotone polygons, which are then cut into
+        triangles. Then diagonals are flipped until the triangulation is a constrained Delaunay triangulation. Some
+        faces cannot be triangulated in this way: faces with zero area, faces with crossing sides, and faces with more
+        than ten million corners. Faces with more than 4096 corners also cannot be triangulated in this way if their
+        sides overlap. Each of these faces becomes a triangle fan around its vertex with the lowest id. The report
+        counts these faces.
 
         In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids.
-        The triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the
-        values of the old face's corner at the same vertex.
+        The triangles have the values of the face. Vertices and edges keep their ids. Each corner of a triangle has the
+        values that the face had at the same corner.
 
         Example: ``scene.triangulate()``, in a recipe ``Triangulate()``
 
@@ -925,29 +926,27 @@ class SceneOperations:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh that the earlier flips have
-        produced. A flip is refused if the edge is on the boundary, if the same face is on both sides of the edge, or if
-        an end of the edge has only two edges. A flip is also refused if the two corners opposite to the edge are the
-        same vertex or are already joined by an edge. If the edge is a seam (an edge whose corner values, such as UVs,
-        differ between its two sides), the flip is refused unless ``seams`` is ``Drop``. All elements keep their ids,
-        and no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new corner. The
-        new corner of a face gets its values from the corner of the other face at the same vertex. All other corners
-        keep their values.
+        produced. A flip is refused if the edge is on the boundary or if the same face is on both sides of the edge. A
+        flip is also refused if an end of the edge has only two edges. A flip is also refused if the new edge would join
+        a vertex to itself, or would join two vertices that an edge already joins. The flip of a seam is refused unless
+        ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their
+        values. Each of the two faces gets one new corner. The new corner of a face gets its values from the corner of
+        the other face at the same vertex. All other corners keep their values.
 
         If a face beside the edge has more than three corners, the edge turns inside the polygon that the two faces form
-        together: each end of the edge moves to the next corner of this polygon, counter-clockwise. With
+        together. Each end of the edge moves to the next corner of this polygon, counter-clockwise. With
         ``until="Delaunay"`` or ``until="Valence"``, only edges between two triangles are flipped.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the angles of the
         triangles (``Delaunay``) or the numbers of edges at the vertices (``Valence``). The operation makes several
-        passes over the edges. It stops after a pass that flips no edge, or after ``passes`` passes. Flips with
-        ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
-        that would improve the mesh is refused, the edge is left unchanged, and the operation does not fail. The report
-        counts the refused flips for each reason. The report also states the number of passes, and whether the operation
-        stopped because of the limit ``passes``.
+        passes over the edges. It stops after a pass that flips no edge, or after ``passes`` passes. The flips neither
+        fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the edge is
+        left unchanged, and the operation does not fail. The report counts the refused flips for each reason. The report
+        also states the number of passes, and whether the operation stopped because of the limit ``passes``.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``. For example, ``sel.Flat(below=30)`` selects only edges at which the surface bends by less than 30
-        degrees, and ``sel.Not(sel.Tagged("keep"))`` selects only edges without the tag "keep".
+        degrees. ``sel.Not(sel.Tagged("keep"))`` selects only edges without the tag "keep".
 
         Example: ``scene.flip_edges(edges="All")``, in a recipe ``FlipEdges(edges: All)``
 
@@ -990,8 +989,8 @@ class SceneOperations:
         edge adds 1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not
         cut and only gains the new vertex as a corner. Edges are split in order of their ids; new edges are not split
         again. New vertices get the highest ids, in the order of the splits. Attribute values at the new vertex and at
-        its corners are interpolated between the ends of the edge. At a seam (an edge whose corner values, such as UVs,
-        differ between its two sides), the corner values of each side are interpolated separately.
+        its corners are interpolated between the ends of the edge. A seam is an edge whose corner values, such as UVs,
+        differ between its two sides. At a seam, the corner values of each side are interpolated separately.
 
         Example: ``scene.split_edges(edges="All")``, in a recipe ``SplitEdges(edges: All)``
 
@@ -1026,8 +1025,8 @@ class SceneOperations:
         face is not removed and only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are
         collapsed in order of their ids. An edge that an earlier collapse removed counts as refused.
 
-        A collapse is refused if it would change the topology of the surface or make elements coincide. The report or
-        the error message gives one of these reasons:
+        A collapse is refused if it would change the topology of the surface, or if two different elements would become
+        one. The report or the error message gives one of these reasons:
 
         - ``JoinsBoundaries``: both ends of the edge are on the boundary, but the edge itself is not.
         - ``Link``: the ends have a common neighboring vertex that is not a corner of a triangle beside the edge.
@@ -1040,10 +1039,10 @@ class SceneOperations:
           sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
-        Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a
-        seam (an edge whose corner values, such as UVs, differ between its two sides), the corner values of each side
-        are interpolated separately. When two edges become one, the remaining edge gets the larger of their crease
-        values (sharpness for subdivision) and the tags of both edges. Normals are dropped.
+        Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. A
+        seam is an edge whose corner values, such as UVs, differ between its two sides. At a seam, the corner values of
+        each side are interpolated separately. When two edges become one, the remaining edge gets the larger crease
+        value (sharpness for subdivision) and the tags of both edges. Normals are dropped.
 
         Example: ``scene.collapse_edges(edges="All", on_refusal="Skip")``, in a recipe ``CollapseEdges(edges: All,
         on_refusal: Skip)``
@@ -1080,10 +1079,9 @@ class SceneOperations:
         that are left with two edges, use ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The
         remaining elements keep their order and their values but get new ids.
 
-        An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
-        ends has only two edges. An edge also cannot be removed if its two faces have a common vertex that is not an end
-        of the edge. A seam (an edge whose corner values, such as UVs, differ between its two sides) is removed only if
-        ``seams`` is ``Drop``.
+        An edge cannot be removed if it is on the boundary or if the same face is on both of its sides. It also cannot
+        be removed if one of its ends has only two edges. The two faces beside the edge must have no common vertices
+        except the ends of the edge. A seam is removed only if ``seams`` is ``Drop``.
 
         Example: ``scene.dissolve_edges(edges=sel.Between(0, 1))``, in a recipe ``DissolveEdges(edges: Between(0, 1))``
 
@@ -1116,22 +1114,23 @@ class SceneOperations:
         """Replaces edges with faces of constant width.
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
-        extends up to the distance ``width`` from the old edge. An edge that is not selected, but shares an end with a
-        selected edge, is shortened at this end. If the two edges are neighboring sides of a face, the new end is where
-        the distance from the selected edge is ``width``, but at most four times ``width`` from the old end. If the two
-        edges are not neighboring sides of a face, the new end is at the distance ``width`` from the old end. If two
-        selected edges are neighboring sides of a face, a new vertex inside this face replaces the corner between them.
-        If three or more new vertices replace an old vertex, another new face joins the new vertices. All selected edges
-        are beveled at once, so a cube that is beveled at all edges keeps all of its symmetries.
+        extends up to the distance ``width`` from the old edge. An edge that is not selected, but ends at a vertex of a
+        selected edge, is shortened at this vertex. If the shortened edge and the selected edge are neighboring sides of
+        a face, the new end of the shortened edge is at the distance ``width`` from the selected edge. However, the edge
+        is shortened by at most four times ``width``. If the two edges are not neighboring sides of a face, the edge is
+        shortened by ``width``. If two selected edges are neighboring sides of a face, a new vertex inside this face
+        replaces the corner between them. If three or more new vertices replace an old vertex, another new face joins
+        the new vertices. All selected edges are beveled at once. For example, a cube with 12 selected edges keeps all
+        of its symmetries.
 
-        The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
-        ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order of these
-        edges, then the faces that replace vertices. Edges get new ids.
+        The vertices at the ends of selected edges are removed, so vertices with higher ids get new ids. New vertices
+        get the highest ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in
+        order of these edges, then the faces that replace vertices. Edges get new ids.
 
-        The values of a new vertex are interpolated in an old face at the position of the vertex, so textures stay in
-        place. A new face has the values (material, tags) of one of the old faces beside it. It is not specified which
-        of these faces is used, but the choice is the same in every run. New edges have zero values (no crease, no
-        tags). Normals are dropped.
+        The values of a new vertex are interpolated between corners of an old face, so textures stay in place. A new
+        face has the values (material, tags) of one of the old faces beside it. It is not specified which of these faces
+        is used, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
+        dropped.
 
         An edge cannot be beveled if it is on the boundary (reason: ``Boundary``), or if one of its ends has only one
         other edge and this other edge is not selected (reason: ``FewEdges``). If the bevels at the two ends of any edge
@@ -1142,10 +1141,10 @@ class SceneOperations:
         2), width: 0.25)``
 
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param width: The distance, in scene units, from the beveled edge to each of the two new edges that replace it,
-            one in each of the faces beside the beveled edge. Either ``width`` or ``fraction`` must be given.
-        :param fraction: The width, divided by the length of the shortest edge among the selected edges and all edges
-            that share a vertex with them. Above 0 and below 1.
+        :param width: The distance of each new edge from the old edge, in scene units. Two new edges replace the old
+            edge: one in each of the faces beside it. Either ``width`` or ``fraction`` must be given.
+        :param fraction: The width as a fraction of a length: the length of the shortest edge that is selected or shares
+            a vertex with a selected edge. Above 0 and below 1.
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
@@ -1170,9 +1169,9 @@ class SceneOperations:
 
         The operation sets two attributes to ``sharpness``: the edge attribute ``crease`` of the selected edges, and the
         vertex attribute ``corner`` of the selected vertices. Elements that are not selected keep their values, or get 0
-        if the attribute did not exist before the operation. With sharpness s, Loop and Catmull-Clark subdivision keep
-        an edge or a vertex sharp in the first s levels and smooth it in later levels. For example, an edge with
-        sharpness 2.5 is sharp in the first two levels. In the third level, the positions are halfway between the sharp
+        if the attribute did not exist before the operation. In Loop and Catmull-Clark subdivision, an edge or a vertex
+        with sharpness s stays sharp in the first s levels and becomes smooth in later levels. For example, an edge with
+        sharpness 2.5 is sharp in the first two levels. The third level places the vertices halfway between the sharp
         and the smooth result. An edge with sharpness 10 stays sharp, however many levels follow. Boundary edges are
         always sharp.
 
@@ -1209,12 +1208,12 @@ class SceneOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in
         order of the poked faces. The new vertex is at the mean of the positions of the corners, moved along the normal
-        of the face by ``distance``. At the new vertex, interpolated attributes of vertices and corners, such as UVs,
-        get the mean of their values at the corners of the face. The triangles have the values of their face, and the
-        new edges have zero values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
+        of the face by ``distance``. At the new vertex, interpolated attributes, such as UVs, get the mean of their
+        values at the corners of the face. The triangles have the values of their face, and the new edges have zero
+        values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
 
-        A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or
-        if the mesh already has the largest supported number of elements.
+        A face cannot be poked if it contains a vertex twice, or if the position of the new vertex would not be finite.
+        No face can be poked if the mesh already has the largest supported number of elements.
 
         Example: ``scene.poke_faces()``, in a recipe ``PokeFaces()``
 
@@ -1286,17 +1285,17 @@ class SceneOperations:
         edges or vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
-        The removal is refused if the remaining faces around a vertex would form several fans (groups of faces that are
-        connected across edges) that meet only at that vertex. In this case, the operation with ``on_refusal="Skip"``
-        tries to remove the faces one by one, in order of their ids. The operation repeats these attempts until no more
-        selected faces can be removed. Selected faces that still cannot be removed are kept, and the report counts them
-        as refused.
+        The removal is refused if the remaining faces around a vertex would form several fans that meet only at this
+        vertex. A fan is a group of faces that are connected across edges. With ``on_refusal="Skip"``, the operation
+        then tries to remove the faces one by one, in order of their ids. The operation repeats these attempts until no
+        more selected faces can be removed. Selected faces that still cannot be removed are kept, and the report counts
+        them as refused.
 
         Example: ``scene.delete_faces(faces="All")``, in a recipe ``DeleteFaces(faces: All)``
 
         :param faces: The faces to delete. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param on_refusal: What to do when not all faces can be removed. Defaults to ``"Error"``.
+        :param on_refusal: What to do when some of the faces cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
@@ -1324,25 +1323,25 @@ class SceneOperations:
         Selected faces that are connected across edges form a region. A region moves as a whole, and has one normal and
         one center. A region is first scaled, then rotated, and then moved. Scaling and rotation are about the center of
         the region, which is the mean position of its vertices. Side faces with four corners are added along the rim of
-        the region. The rim of a region consists of the edges with a face of the region on exactly one side. If all
-        faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed region (for
-        example, all faces of a cube) has no rim, so it moves without new side faces. A region has no normal if the area
-        vectors of its faces cancel each other out, as in a closed region. For a region without a normal, ``by`` must be
-        an ``choice.Offset``.
+        the region. An edge belongs to the rim if exactly one of its two sides has a face of the region. If all faces of
+        an open sheet are extruded, the result is a box that is open where the sheet was. A closed region (for example,
+        all faces of a cube) has no rim, so it moves without new side faces. A region has no normal if the area vectors
+        of its faces cancel each other out, as in a closed region. For a region without a normal, ``by`` must be an
+        ``choice.Offset``.
 
         The moved faces keep their ids. A later operation can therefore extrude the same faces again, for example to
         grow an arm out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the
-        old rim do not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by
-        region (by the lowest face id of each region), then by the id of the adjacent moved face. Around each moved
-        face, the order is counter-clockwise from its first corner. Each side face adds one new vertex, so the new
-        vertices are in the order of the side faces. A new vertex is a copy of the first vertex of its side face. The
-        first vertex is on the old rim.
+        old rim do not move, and the moved faces get a new rim. New side faces get the highest ids. Side faces are
+        ordered by region, and within a region by the id of the adjacent moved face. Regions are ordered by their lowest
+        face id. Around each moved face, the order is counter-clockwise from its first corner. Each side face adds one
+        new vertex, so the new vertices are in the order of the side faces. A new vertex is a copy of a vertex on the
+        old rim: the first vertex of its side face.
 
         A side face has the attribute values (material, tags) of the adjacent moved face. The corners of a side face
         have the values of the corners of the moved face, so textures have no seam between the two faces. However, a
-        side face shows only one line of the texture: the line along the edge of the moved face, stretched over the
-        whole side face. The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges
-        between the old and the new rim have zero values (no crease, no tags). Normals are dropped.
+        side face shows only one line of the texture: the line along the edge of the moved face. This line is stretched
+        over the whole side face. The edges of the new rim have the values of the edges of the old rim (creases, tags).
+        The edges between the old and the new rim have zero values (no crease, no tags). Normals are dropped.
 
         Example: ``scene.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``, in a recipe
         ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
@@ -1426,8 +1425,8 @@ class SceneOperations:
         and counter-clockwise around each face from its first corner. A zero-area face has no normal, so its inner face
         is not raised.
 
-        Attribute values at a new corner or vertex are interpolated with the parameter ``fraction``: from the value at
-        the outer corner (0) to the mean of the values at all corners of the face (1). The faces of the ring have the
+        Attribute values at a new corner or vertex are interpolated by ``fraction``. Here, 0 stands for the value at the
+        outer corner, and 1 stands for the mean of the values at all corners of the face. The faces of the ring have the
         values of the old face (material, tags). The edges of the inner face have the values of the old edges beside
         them. Normals are dropped.
 
@@ -1472,10 +1471,10 @@ class SceneOperations:
         remaining elements keep their order and their values but get new ids. Normals are dropped.
 
         A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring
-        vertex would be left with a single edge, which ends inside a face. A removal is also refused if a face would
-        contain a vertex twice or have fewer than three corners, or if a new edge would join two vertices that an edge
-        already joins. A vertex on a seam (an edge whose corner values, such as UVs, differ between its two sides) is
-        removed only if ``seams`` is ``Drop``.
+        vertex would be left with a single edge, because this edge would end inside a face. A removal is also refused if
+        a face would contain a vertex twice or have fewer than three corners. A removal is also refused if it would join
+        two vertices that an edge already joins. A vertex on a seam (an edge whose corner values, such as UVs, differ
+        between its two sides) is removed only if ``seams`` is ``Drop``.
 
         Example: ``scene.dissolve_vertices(vertices=sel.Vertices([1]))``, in a recipe ``DissolveVertices(vertices:
         Vertices([1]))``
@@ -1517,8 +1516,8 @@ class SceneOperations:
         the highest ids, in order of the selected vertices.
 
         Attribute values at a cut are interpolated between the two ends of the cut edge, so textures do not move on the
-        surface. A new face has the values (material, tags) of one of the faces at the vertex. Which face is used is not
-        specified, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
+        surface. A new face has the values (material, tags) of one of the faces at the vertex. The choice of this face
+        is not specified, but it is the same in every run. New edges have zero values (no crease, no tags). Normals are
         dropped.
 
         A vertex cannot be beveled if it is on the boundary or has fewer than three edges. It also cannot be beveled if
@@ -1553,7 +1552,7 @@ class SceneOperations:
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
         removed, because they would contradict the vertex normals. The normal of a vertex is the zero vector if the
-        vertex has no faces or only zero-area faces, or if the normals of its faces cancel each other out. The report
+        vertex has no faces, if all its faces have zero area, or if their normals cancel each other out. The report
         counts these vertices.
 
         Example: ``scene.vertex_normals()``, in a recipe ``VertexNormals()``
@@ -1615,12 +1614,12 @@ class SceneOperations:
         ``with_="Triangles"``, the hole gets n - 2 triangles and n - 3 new edges.
 
         For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
-        edges is filled one triangle at a time. Each triangle cuts off the corner of the remaining hole whose two
-        neighboring vertices are closest to each other. Straight and reflex corners are cut off last. If such a large
+        edges is filled one triangle at a time. Each triangle cuts off a corner of the remaining hole: the corner whose
+        two neighboring vertices are closest to each other. Straight and reflex corners are cut off last. If the large
         hole is far from convex, the triangles can overlap. In holes of any size, a new edge never joins two vertices
-        that an existing edge already joins. If no triangulation without such a duplicate edge is found, filling the
-        hole is refused (reason: ``DuplicateEdge``). A hole with only two edges cannot be filled (reason:
-        ``WrongPlace``). To close a hole with two edges, use ``stitch()``.
+        that an existing edge already joins. If the operation finds no triangulation without duplicate edges, the hole
+        is not filled (reason: ``DuplicateEdge``). A hole with only two edges cannot be filled (reason: ``WrongPlace``).
+        To close a hole with two edges, use ``stitch()``.
 
         New faces have the values of a face beside the hole. A new corner has the values of an existing corner at the
         same vertex. Normals are dropped if a hole was filled.
@@ -1663,9 +1662,10 @@ class SceneOperations:
         mesh, which then gets a tunnel or a handle. They can also be in two separate parts of the mesh, which then
         become connected. To bridge holes of two objects, first use ``join()`` to make one mesh of the objects.
 
-        Each new face copies the attribute values of the adjacent face at the hole with more edges. If both holes have
-        the same number of edges, the values come from the adjacent face at the hole of the vertex ``first``. A new
-        corner has the values of an existing corner at the same vertex. Normals are dropped.
+        Each new face is beside one edge of the hole that has more edges. If both holes have the same number of edges,
+        this edge belongs to the hole of the vertex ``first``. The new face copies the attribute values of the old face
+        on the other side of this edge. A new corner has the values of an existing corner at the same vertex. Normals
+        are dropped.
 
         The operation is refused if one of the given vertices is not on the boundary (reason: ``NotBoundary``), or if
         both are on the same hole (reason: ``WrongPlace``). The operation is also refused if a new edge would join two
@@ -1694,10 +1694,10 @@ class SceneOperations:
         """Joins boundary edges that coincide.
 
         Two boundary edges coincide if each end of one edge is at most ``distance`` from the corresponding end of the
-        other edge. Two edges that coincide only with each other form a pair and are joined. If an edge coincides with
-        several edges, joining these edges is refused (reason: ``NonManifold``). To avoid this refusal, choose a
-        ``distance`` that is less than the lengths of the edges. ``weld()`` merges all vertices that are close together,
-        but ``stitch()`` merges only the ends of edges that it joins.
+        other edge. Two edges that coincide only with each other form a pair and are joined. An edge that coincides with
+        several edges cannot be joined (reason: ``NonManifold``). To avoid this, choose a ``distance`` that is less than
+        the lengths of the edges. ``weld()`` merges all vertices that are close together, but ``stitch()`` merges only
+        the ends of edges that it joins.
 
         When two vertices become one, the vertex with the lower id is kept, with its position and values. When two edges
         become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so all
@@ -1743,10 +1743,10 @@ class SceneOperations:
         moves. Copies of vertices and edges have the values of the originals. Corners keep their values. ``stitch()`` is
         the inverse operation: it joins the two sides of a cut again.
 
-        An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if neither of its ends
-        is on the boundary or on another edge to cut (reason: ``DuplicateEdge``). The two sides of such a cut would
-        still join the same two vertices, so the mesh would not open. All edges are cut at once, so a longer path inside
-        the mesh can be cut.
+        An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if it touches neither
+        the boundary nor another edge to cut (reason: ``DuplicateEdge``). Both sides of the cut would still join the
+        same two vertices, so the mesh would not open. However, a path of several edges inside the mesh can be cut,
+        because all edges are cut at once.
 
         Example: ``scene.cut(edges="All")``, in a recipe ``Cut(edges: All)``
 
@@ -1872,7 +1872,7 @@ class SceneOperations:
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
         values are smoothed as the parameter ``face_varying`` specifies, and seams are kept. When an edge or a triangle
         is split, its parts copy its attribute values, such as tags and materials. Normals are dropped, because they
-        would be wrong. An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
+        would be wrong. If an edge or a vertex has the sharpness s (see ``crease()``), it stays sharp for s levels.
 
         Example: ``scene.loop_subdivide(levels=2)``, in a recipe ``LoopSubdivide(levels: 2)``
 
@@ -1882,8 +1882,8 @@ class SceneOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param weights: The weights for the new position of an old vertex: a weighted mean of its old position and its
-            neighbors. Defaults to ``"Warren"``.
+        :param weights: The weights that determine the new positions of old vertices. An old vertex moves to a weighted
+            mean of its old position and its neighbors. Defaults to ``"Warren"``.
             ``"Warren"``: The weight u of a neighbor is 3/16 if the vertex has n = 3 neighbors, and otherwise 3/(8n).
             ``"Loop"``: If the vertex has n neighbors, the weight u of a neighbor is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as
                 in Loop's thesis, 1987.
@@ -1908,10 +1908,10 @@ class SceneOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
             and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
-            four, so that no vertex lies in the middle of an edge of a neighboring triangle. The surface outside the
-            refined faces does not move. The documentation of the Rust function ``subdivision::refine_faces`` describes
-            the ids of new elements. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
-            ``meshwright.sel``.
+            four. Without these cuts, new vertices would lie in the middle of edges of these triangles. The surface
+            outside the refined faces does not move. The documentation of the Rust function
+            ``subdivision::refine_faces`` describes the ids of new elements. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
             that it supports.
         :param id, progress: See :meth:`Scene.apply`.
@@ -1937,13 +1937,13 @@ class SceneOperations:
         Each level creates one quad at each corner of each old face. A level turns V vertices, E edges and F faces with
         C corners in total into V + E + F vertices, 2 E + C edges and C quads. The Euler characteristic V - E + F does
         not change. Old vertices keep their ids. The vertex on edge e has the id V + e, and the vertex at the center of
-        face f has the id V + E + f. Edge e becomes edges 2e and 2e + 1. The quads are numbered in the order of the old
-        faces and, in each face, in the order of its corners.
+        face f has the id V + E + f. Edge e becomes edges 2e and 2e + 1. The quads are numbered face by face, in the
+        order of the old faces. The quads of an old face are in the order of the corners of this face.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
         values are smoothed as the parameter ``face_varying`` specifies, and seams are kept. When an edge or a face is
         split, its parts copy its attribute values, such as tags and materials. Normals are dropped, because they would
-        be wrong. An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
+        be wrong. If an edge or a vertex has the sharpness s (see ``crease()``), it stays sharp for s levels.
 
         Example: ``scene.catmull_clark(levels=2)``, in a recipe ``CatmullClark(levels: 2)``
 
@@ -2077,11 +2077,11 @@ class SceneOperations:
         """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
-        second level also cuts the boundary edges, and thus adds one more vertex and one more edge for each boundary
-        edge. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new vertex in face f
-        has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step counts its own
-        levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of one level each leave
-        the boundary edges uncut.
+        second level also cuts each boundary edge in three. For each boundary edge, the counts of vertices and edges are
+        then larger by one. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new
+        vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step
+        counts its own levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of one
+        level each leave the boundary edges uncut.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
         within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
@@ -2119,8 +2119,8 @@ class SceneOperations:
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. The Euler
         characteristic V - E + F does not change. The shrunk face inside old face f has the id f, and the new face at
         old edge e has the id F + e. The new faces at old vertices have the highest ids. Isolated vertices are kept. The
-        ids of isolated vertices follow the ids of all other vertices. Isolated vertices do not become faces, and
-        neither do vertices inside the mesh that have only two edges.
+        ids of isolated vertices follow the ids of all other vertices. Two kinds of vertices do not become faces:
+        isolated vertices, and vertices inside the mesh that have only two edges.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are smoothed within each
         old face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, the
@@ -2158,29 +2158,30 @@ class SceneOperations:
 
         Every edge that crosses the plane gets a new vertex at the crossing point. Every face that crosses the plane is
         cut along the plane. A concave face can be cut in several places. A vertex near the plane is treated as if it
-        were on the plane, and is not moved. Near means a distance from the plane of at most 1e-9 times the longest side
-        of the bounding box, or at most 1e-14 times the largest absolute coordinate. Every edge has two half-edges. When
-        an edge is cut, the part at the start of the half-edge with the lower id keeps the id of the edge. When a face
-        is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Where an edge
-        crosses the plane, attributes are interpolated. At a seam (an edge whose corner values, such as UVs, differ
-        between its two sides), the corner values of each side are interpolated separately.
+        were on the plane, and is not moved. A vertex is near if its distance from the plane is at most 1e-9 times the
+        longest side of the bounding box. A distance of at most 1e-14 times the largest absolute coordinate also counts
+        as near. Every edge has two half-edges. When an edge is cut, one part keeps the id of the edge: the part that
+        contains the start of the half-edge with the lower id. When a face is cut, the part that contains the first
+        corner keeps the id of the face. New elements get the highest ids. Where an edge crosses the plane, attributes
+        are interpolated. At a seam (an edge whose corner values, such as UVs, differ between its two sides), the corner
+        values of each side are interpolated separately.
 
         With ``keep="Front"``, the part of the mesh behind the plane is removed. With ``keep="Back"``, the part in front
-        of the plane is removed. A face that lies in the plane belongs to the back if its normal points to the front,
-        because the face then closes the solid behind the plane. Vertices that are left without a face are removed. If
-        the remaining faces around a vertex form several fans (groups of faces connected across edges), each fan gets a
+        of the plane is removed. If a face lies in the plane and its normal points to the front, the face belongs to the
+        back, because it closes the solid behind the plane. Vertices that are left without a face are removed. If the
+        remaining faces around a vertex form several fans (groups of faces connected across edges), each fan gets a
         separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
         later operation.
 
         Example: ``scene.bisect(normal=(0, 0, 1))``, in a recipe ``Bisect(normal: (0, 0, 1))``
 
-        :param normal: The normal of the plane. It points to the front side. The length of the normal does not matter
-            but must not be 0.
+        :param normal: The normal of the plane. The normal points to the front side. The length of the normal does not
+            matter but must not be 0.
         :param point: A point on the plane.
         :param keep: The part of the mesh to keep: one side of the plane, or both sides. Defaults to ``"Both"``.
             ``"Both"``: Both sides.
-            ``"Front"``: The side of the plane that the normal of the plane points to.
-            ``"Back"``: The side of the plane that the normal of the plane points away from.
+            ``"Front"``: The side in front of the plane: the normal of the plane points to this side.
+            ``"Back"``: The side behind the plane: the normal of the plane points away from this side.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
@@ -2202,11 +2203,11 @@ class SceneOperations:
         """Replaces one half of a mesh with the mirror image of the other half.
 
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
-        the halves are joined at the plane. Vertices that ``bisect()`` would treat as on the plane are moved exactly
-        onto the plane, so that the result is symmetric. Faces that lie in the plane are removed, because they would
-        become walls inside the result. The halves are joined at the vertices on the plane that are on the boundary of
-        the kept half. Where the surface only touches the plane, without a boundary there, the halves are not joined.
-        The report counts the faces that are removed completely, but not the faces that the plane cuts.
+        the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto the plane,
+        so that the result is symmetric. Faces that lie in the plane are removed, because they would become walls inside
+        the result. A vertex on the plane joins the halves if it is on the boundary of the kept half. Where the surface
+        only touches the plane, without a boundary there, the halves are not joined. The report counts the faces that
+        are removed completely, but not the faces that the plane cuts.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and
@@ -2218,8 +2219,8 @@ class SceneOperations:
             but must not be 0.
         :param point: A point on the plane.
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
-            ``"Front"``: The side of the plane that the normal of the plane points to.
-            ``"Back"``: The side of the plane that the normal of the plane points away from.
+            ``"Front"``: The side in front of the plane: the normal of the plane points to this side.
+            ``"Back"``: The side behind the plane: the normal of the plane points away from this side.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
             that it supports.
         :param id, progress: See :meth:`Scene.apply`.
@@ -2256,7 +2257,7 @@ class SceneOperations:
           different tags or materials, tagged edges, creases, and the edges that ``features`` selects. A line can lose
           vertices, but its ends, and the vertices where lines meet, keep their exact positions.
         - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
-          (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
+          (Hoppe, 1999). New vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the
           original. The vertex attributes that ``measure()`` stores also influence the result, and the report lists
           their names. To avoid this influence, use ``measure()`` after this operation.
@@ -2269,8 +2270,7 @@ class SceneOperations:
 
         No collapse turns a triangle over. Remaining elements get new ids, in the order of their old ids. If ``error``
         is not given and the number of faces cannot be reached, the operation is refused (reason: ``Unreached``), and
-        the message states why. With ``on_refusal="Skip"``, the result is instead the simplified mesh with the fewest
-        faces that the operation reached.
+        the message states why. With ``on_refusal="Skip"``, the operation instead simplifies the mesh as far as it can.
 
         Example: ``scene.simplify(ratio=0.5)``, in a recipe ``Simplify(ratio: 0.5)``
 
@@ -2279,9 +2279,9 @@ class SceneOperations:
             change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed: the operation sums upper bounds of the movements of all collapses. The sum
-            overestimates the true distance. If the limit ends the operation, the true distance is usually between a
-            third of the limit and the limit. If omitted, there is no limit.
+            limit is guaranteed: for each collapse, the operation computes an upper bound of how far the surface moves,
+            and adds up these bounds. The sum overestimates the true distance. If the limit ends the operation, the true
+            distance is usually between a third of the limit and the limit. If omitted, there is no limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
@@ -2324,7 +2324,7 @@ class SceneOperations:
         0.25])``
 
         :param from_: The name of the object.
-        :param ratios: The number of faces of each copy, as a fraction of the number of faces of the original object.
+        :param ratios: For each copy, the number of its faces divided by the number of faces of the original object.
             Each fraction must be smaller than the previous fraction in the list.
         :param to: The text before the number in the names of the copies. If omitted, the name of the object followed by
             ``_lod``.
@@ -2374,10 +2374,10 @@ class SceneOperations:
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
         - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
-          vertices are the three corners of the old triangle at this position. A tagged vertex can move only inside a
-          tagged region. A tagged vertex is inside such a region if all corners of one of its triangles, or both of its
-          neighbors on a line, also have the tag. All other tagged vertices keep their exact positions. Vertices to
-          which ``crease()`` gave a sharpness also keep their exact positions.
+          vertices are the three corners of the old triangle at this position. A tagged vertex can move only if all
+          corners of one of its triangles, or both of its neighbors on a line, also have the tag. All other tagged
+          vertices keep their exact positions. Vertices with a sharpness (see ``crease()``) also keep their exact
+          positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. Therefore the command
         ``check``, which examines a recipe but does not run it, shows the largest number of faces that fits the memory
@@ -2403,8 +2403,9 @@ class SceneOperations:
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. To
-            keep this limit, some edges can become shorter than the target length. The distance is measured at the end
-            of the operation, in both directions and for all points of both surfaces. If omitted, there is no limit.
+            stay below this limit, the operation can make some edges shorter than the target length. The distance is
+            measured at the end of the operation, in both directions and for all points of both surfaces. If omitted,
+            there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param passes: The largest number of passes, from 1 to 1000. The operation ends earlier if a pass changes almost
@@ -2468,8 +2469,8 @@ class SceneOperations:
             ``"Free"``: The boundary is smoothed as a set of curves: the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
         :param keep_volume: Whether to restore the original volume of the mesh after smoothing. To restore the volume,
-            the operation shifts all vertices that it is allowed to move by the same distance along their normals. The
-            mesh must be closed. Defaults to ``False``.
+            all vertices that are allowed to move are shifted by the same distance along their normals. The mesh must be
+            closed. Defaults to ``False``.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
             that it supports.
         :param id, progress: See :meth:`Scene.apply`.
@@ -2496,11 +2497,12 @@ class SceneOperations:
         the attribute with the same type of values, the attribute is overwritten. If the type of values differs, the
         operation fails. If the operation does not name its objects with ``on``, it changes all meshes except ``from_``.
 
-        All corners of a face of the changed mesh take their values from the same side of a seam of the source object.
-        No triangle is therefore stretched across the seam in the texture. Usually the side that is nearest to the
-        center of the face is used. Seams divide the source object into charts. Where parts of the source object
-        intersect, the chart that is nearest to the center can be far from the corners of the face. If the chart that is
-        nearest to a corner is much nearer to the whole face, this chart is used instead.
+        Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
+        same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This
+        prevents triangles from stretching across a seam of the texture. Usually the chart that is nearest to the center
+        of the face is used. Where parts of the source object intersect, the chart that is nearest to the center can be
+        far from the corners of the face. If another chart is nearest to a corner, and is much nearer to the face as a
+        whole, this other chart is used.
 
         Elements that are farther from the source object than ``within`` keep their values, or get zeros if the
         attribute is new. All corners of a face are treated alike. If one of the corners or the center of the face is
@@ -2540,9 +2542,8 @@ class SceneOperations:
         is 1 at selected vertices and falls smoothly to 0 at the distance r. Distances are measured along straight
         lines, not along the surface.
 
-        With ``by=choice.Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
-        faces, weighted by the areas of the faces. Vertices without a normal, such as isolated vertices, do not move.
-        The report counts these vertices.
+        With ``by=choice.Distance(..)``, each vertex moves along its own normal: the area-weighted mean of its face
+        normals. Vertices without a normal, such as isolated vertices, do not move. The report counts these vertices.
 
         Example: ``scene.move_vertices(vertices=sel.Vertices([0]), by=choice.Offset((0, 0, 0.5)))``, in a recipe
         ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
@@ -2556,8 +2557,8 @@ class SceneOperations:
                 becomes this point.
             ``choice.Rotate(..)``: Rotates around an axis through the mean of the positions of the selected vertices.
             ``choice.Scale(..)``: Scales along x, y and z about the mean of the positions of the selected vertices.
-        :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
-            If omitted, only the selected vertices move.
+        :param falloff: The distance from the selected vertices at which the movement becomes 0, in scene units. If
+            omitted, only the selected vertices move.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
             that it supports.
         :param id, progress: See :meth:`Scene.apply`.
@@ -2577,12 +2578,12 @@ class SceneOperations:
         """Moves vertices along their normals, by amounts that vary over the surface.
 
         Each vertex moves along its normal by ``distance`` times the value that ``by`` gives for this vertex. The normal
-        of a vertex is the mean of the normals of its faces, weighted by the areas of the faces. Vertices without a
-        normal, such as isolated vertices, do not move. The report counts these vertices. Normals and tangents are
-        dropped. Faces, element ids and other attributes do not change.
+        of a vertex is the area-weighted mean of its face normals. Vertices without a normal, such as isolated vertices,
+        do not move. The report counts these vertices. Normals and tangents are dropped. Faces, element ids and other
+        attributes do not change.
 
-        The computation uses only functions that give the same results on all machines, so the displaced mesh is
-        identical on all machines.
+        The displaced mesh is identical on all machines, because the computation uses only functions that do not depend
+        on the machine.
 
         Example: ``scene.displace(by=choice.Noise(scale=0.5, seed=7), distance=0.1)``, in a recipe ``Displace(by:
         Noise(scale: 0.5, seed: 7), distance: 0.1)``
@@ -2621,9 +2622,9 @@ class SceneOperations:
 
         The parameters ``from_`` and ``to`` are coordinates along the axis. Vertices at or below ``from_`` do not move.
         Between ``from_`` and ``to``, the axis becomes an arc of the same length. The direction of the arc turns by
-        ``angle`` from one end to the other. The part above ``to`` moves rigidly with the end of the arc. Vertices
-        between the axis and the center of the circle move closer together, and vertices on the other side of the axis
-        move apart. The distance between the center of the circle and the axis is (to - from) / angle, with the angle in
+        ``angle`` from one end to the other. The part above ``to`` moves rigidly with the end of the arc. On the side of
+        the axis towards the center of the circle, vertices move closer together. On the other side, vertices move
+        apart. The distance between the center of the circle and the axis is (to - from) / angle, with the angle in
         radians. Parts of the mesh that lie beyond the center of the circle, as seen from the axis, turn inside out.
         Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
@@ -2638,16 +2639,16 @@ class SceneOperations:
             ``"Z"``: The z axis.
         :param angle: The angle by which the axis turns from ``from_`` to ``to``, in degrees. A negative angle bends to
             the other side.
-        :param towards: The coordinate axis in whose positive direction the upper end bends. If omitted, the axis after
-            ``axis`` in the order x, y, z, x.
+        :param towards: The upper end bends in the positive direction of this coordinate axis. If omitted, this is the
+            axis after ``axis`` in the order x, y, z, x.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh along the axis.
-        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh along the axis. Must not be less than ``from_``.
+        :param to: The coordinate along the axis at which the deformation reaches its full amount. If omitted, the
+            highest coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
@@ -2672,10 +2673,10 @@ class SceneOperations:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
         Along the axis, the angle grows linearly from 0 at the coordinate ``from_`` to ``angle`` at the coordinate
-        ``to``. Vertices below ``from_`` do not move, and vertices above ``to`` rotate by ``angle``. A twist of a smooth
-        surface would keep the volume exactly. The volume of a mesh changes slightly, because its edges stay straight,
-        but the change is small if the mesh is fine. A second twist with the opposite angle and the same other
-        parameters undoes the first twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        ``to``. Vertices below ``from_`` do not move, and vertices above ``to`` rotate by ``angle``. An exact twist
+        keeps the volume. The edges of a mesh stay straight, so the volume of the mesh changes slightly. The change is
+        small if the mesh is fine. A second twist with the opposite angle and the same other parameters undoes the first
+        twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -2690,8 +2691,8 @@ class SceneOperations:
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh along the axis.
-        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh along the axis. Must not be less than ``from_``.
+        :param to: The coordinate along the axis at which the deformation reaches its full amount. If omitted, the
+            highest coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
@@ -2733,8 +2734,8 @@ class SceneOperations:
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh along the axis.
-        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh along the axis. Must not be less than ``from_``.
+        :param to: The coordinate along the axis at which the deformation reaches its full amount. If omitted, the
+            highest coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
@@ -2758,12 +2759,12 @@ class SceneOperations:
         """Deforms vertices with a box of control points.
 
         The box contains a regular grid of control points. ``size`` gives the number of control points along x, y and z.
-        ``moves`` moves some of the control points, and the space in the box is deformed smoothly. The new position of a
-        point in the box is the weighted sum of the new positions of all control points, with Bernstein polynomials as
-        weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move
-        by the same offset, the whole box moves by this offset. If only one control point moves, the points in the box
-        move in the same direction, but less far. If this control point is at a corner of the box, the point of the box
-        at the same corner moves exactly as far as the control point.
+        ``moves`` gives offsets for some of the control points. The space in the box follows the moved points smoothly.
+        The new position of a point in the box is a weighted sum of the new positions of all control points. The weights
+        are Bernstein polynomials (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all
+        control points move by the same offset, the whole box moves by this offset. If only one control point moves, the
+        points in the box move in the same direction, but less far. However, if the control point is at a corner of the
+        box, this corner moves exactly as far as the control point.
 
         Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
         do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
@@ -2773,9 +2774,9 @@ class SceneOperations:
         (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
 
         :param size: The numbers of control points along x, y and z. Each number is from 2 to 16.
-        :param moves: The control points that move. Each entry consists of the indices of a control point along x, y and
-            z, which start at 0, and its offset in scene units. A control point that is listed several times moves by
-            the sum of its offsets.
+        :param moves: The control points that move. Each entry consists of the three indices of a control point (along
+            x, y and z, counted from 0) and the offset of this point in scene units. A control point that is listed
+            several times moves by the sum of its offsets.
         :param min: The corner of the box with the lowest coordinates. If omitted, the same corner of the bounding box
             of the mesh is used.
         :param max: The corner of the box with the highest coordinates. If omitted, the same corner of the bounding box
@@ -2802,15 +2803,15 @@ class SceneOperations:
     ) -> Self:
         """Moves vertices onto the surface of another object (shrinkwrap).
 
-        Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions. If
-        the operation does not name objects with ``on``, it acts on all meshes except the object that ``onto`` names.
+        A vertex moves only if it is in ``vertices`` and not in ``pin``. All other vertices keep their exact positions.
+        If the operation does not name objects with ``on``, it acts on all meshes except the object that ``onto`` names.
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface.
 
         Vertices that would move farther than ``distance`` do not move. With ``along="Normal"``, a vertex moves along
-        the line of its normal, and with ``along=choice.Direction(..)``, along a ray in this direction. If this line or
-        ray misses the surface, the vertex does not move. The report counts the vertices that would move too far, and
-        the vertices whose line or ray misses the surface.
+        the line of its normal. With ``along=choice.Direction(..)``, a vertex moves along a ray in this direction. If
+        the line or ray of a vertex misses the surface, the vertex does not move. The report counts the vertices that
+        would move too far, and the vertices whose line or ray misses the surface.
 
         Example: ``scene.project(onto="scan", distance=0.1)``, in a recipe ``Project(onto: "scan", distance: 0.1)``
 
@@ -2845,40 +2846,37 @@ class SceneOperations:
     ) -> Self:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
-        Later operations can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``),
-        show it in a picture (``picture()``), and save it to files (``save()``). If a later operation changes the mesh,
-        the quantity is not computed again. Positions and other attributes do not change. Quantities are computed from
-        the coordinates that the mesh stores. The transforms of the nodes that place the mesh in the scene are not
-        applied. For each object, the report states the lowest, the mean and the highest value.
+        Later operations can use the attribute to select elements (``sel.Where``) or to move vertices (``displace()``).
+        They can also show it in a picture (``picture()``) or save it to a file (``save()``). If a later operation
+        changes the mesh, the quantity is not computed again. Positions and other attributes do not change. Quantities
+        are computed from the coordinates that the mesh stores. The transforms of the nodes that place the mesh in the
+        scene are not applied. For each object, the report states the lowest, the mean and the highest value.
 
         If the mesh already has an attribute of this name, the attribute is replaced. The operation fails if the
-        existing attribute belongs to a different kind of element, or does not hold one floating-point number for each
+        existing attribute belongs to a different kind of element, or does not have one floating-point number per
         element.
 
         Example: ``scene.measure(of="MeanCurvature")``, in a recipe ``Measure(of: MeanCurvature)``
 
         :param of: The quantity.
-            ``"MeanCurvature"``: The mean curvature at each vertex, in 1 / scene unit: 1 / r on a sphere of radius r, 1
-                / (2 r) on a cylinder, and negative where the surface is concave (Cohen-Steiner, Morvan, 2003).
-            ``"GaussianCurvature"``: The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided
-                by the area of the vertex (Meyer, Desbrun, Schröder, Barr, 2003).
+            ``"MeanCurvature"``: The mean curvature at each vertex, in 1 / scene unit (Cohen-Steiner, Morvan, 2003).
+            ``"GaussianCurvature"``: The Gaussian curvature at each vertex, in 1 / scene unit² (Meyer, Desbrun,
+                Schröder, Barr, 2003).
             ``choice.PrincipalCurvature(..)``: A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of
                 the curvature tensor of Cohen-Steiner and Morvan, 2003.
             ``"Area"``: The area of each face, in scene units².
             ``"VertexArea"``: The area of the surface that belongs to each vertex, in scene units².
             ``"MinAngle"``: The smallest angle of each face, in degrees.
-            ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, and more than 1 for all other
-                polygons (Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
+            ``"AspectRatio"``: The aspect ratio of each face (Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict
+                Geometric Quality Library", 2007).
             ``choice.Distance(..)``: The distance from each vertex to the nearest point of another mesh of the scene, in
                 scene units.
             ``choice.Geodesic(..)``: The distance along the surface from each vertex to the nearest selected vertex, in
-                scene units, by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane,
-                2020).
+                scene units.
             ``"Thickness"``: The thickness of the solid at each vertex, in scene units.
             ``choice.Occlusion(..)``: The ambient occlusion of each vertex.
-            ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
-                outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
-                2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
+            ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex (Jacobson, Kavan,
+                Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
         :param name: The name of the attribute. If omitted, the attribute gets the name of the quantity in lower case,
             for example ``mean_curvature`` for ``MeanCurvature``. For principal curvatures, the default names are
             ``largest_curvature`` and ``smallest_curvature``.
@@ -2915,15 +2913,16 @@ class SceneOperations:
         if its angles are distorted too much. This distortion turns a small circle on the surface into an ellipse in the
         texture. On at least 95 % of the area of a chart, the longer axis of this ellipse is at most 1.15 times the
         shorter axis. All charts of a mesh have the same scale, and no chart is mirrored. No polygon is divided between
-        charts. Each mesh gets its own page, on which the charts are arranged as by ``pack_uvs()``.
+        charts. Each mesh gets its own page. The charts are arranged on the page in the same way as by ``pack_uvs()``.
 
         The coordinates are written to the corner attribute that the parameter ``uv`` names. If this attribute already
         exists, it is replaced. Edges at which charts meet become seams of the texture coordinates. Positions, faces and
         other attributes do not change, but tangents are removed because they depend on the texture coordinates.
         Zero-area faces also have zero area in the texture. The report counts the faces with zero area in the texture.
         If a polygon is bent so far that it overlaps itself in the texture, the operation fails and gives the reason
-        ``WrongPlace``. To avoid this failure, triangulate such polygons before this operation. With
-        ``on_refusal="Skip"``, the operation does not fail, and the triangles of such a polygon overlap in the texture.
+        ``WrongPlace``. To avoid this failure, triangulate the bent polygons before this operation. With
+        ``on_refusal="Skip"``, the operation does not fail, and the triangles of the bent polygons overlap in the
+        texture.
 
         Example: ``scene.unwrap(max_angle=60)``, in a recipe ``Unwrap(max_angle: 60)``
 
@@ -2932,9 +2931,9 @@ class SceneOperations:
             chooses all borders. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to ``70.0``.
-        :param max_stretch: The largest factor by which the area scale of a triangle is allowed to be larger or smaller
-            than the area scale of its whole chart. The area scale is the area in the texture divided by the area on the
-            surface. Defaults to ``4.0``.
+        :param max_stretch: The area scale of a triangle is allowed to differ from the area scale of its whole chart by
+            at most this factor. The area scale is the area in the texture divided by the area on the surface. Defaults
+            to ``4.0``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for every size.
             The size matters only for ``padding``, which is a number of texels. Defaults to ``1024``.
         :param padding: The width of the empty border around each chart, in texels. The distance between two charts is
@@ -3028,8 +3027,8 @@ class SceneOperations:
             more views are placed in rows of 4.
         :param style: The style: shading, lines, background.
             ``"shading"``: The lighting of surfaces.
-            ``"sharp"``: The smallest angle between the normals of two faces at which the edge between the faces is
-                shaded as sharp, in degrees. This angle has no effect if the mesh stores normals.
+            ``"sharp"``: An edge is shaded as sharp if the normals of its two faces differ by at least this angle, in
+                degrees. This angle has no effect if the mesh stores normals or smoothing groups.
             ``"occlusion"``: The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
             ``"background"``: The background.
             ``"color"``: The color of all surfaces. If omitted, surfaces have the colors of the scene.
@@ -3056,8 +3055,8 @@ class SceneOperations:
         :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
-            ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults are those
-                of ``highlight_width``.
+            ``"width"``: The width of edges and the diameter of vertices, in pixels. The defaults are the same as for
+                ``highlight_width``.
         :param color_by: What the colors of the surface show: a quantity (``"Valence"``, ``"MinAngle"``, ``"Area"``,
             ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
             name of an attribute, or a mapping with more details.
@@ -3117,15 +3116,16 @@ class SceneOperations:
             empty, only the curves and their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
             Defaults to ``False``.
-        :param before: The name of a curve that is the earlier state of the drawn curves. The earlier curve is drawn
-            faintly behind each drawn curve. Arrows lead from the old positions of control points to their new
-            positions.
+        :param before: The name of another curve, such as an older version of the drawn curve. The older curve is drawn
+            faintly behind each drawn curve. If both curves have the same degree, arrows lead from the old to the new
+            positions of the control points that have moved clearly.
         :param width: The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19
             pixels in wide panels. Defaults to ``640``.
-        :param columns: The number of panels in each row. If omitted, each row has one panel for each value of ``t``
-            (with ``by_level``, for each level of the curve), but at most 4 panels.
-        :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
-            files. Defaults to ``2``.
+        :param columns: The number of panels in each row. If omitted, each row has one panel for each value of ``t``,
+            but at most 4 panels. With ``by_level``, each row then has one panel for each level of the curve, but at
+            most 4 panels.
+        :param scale: In a ``.png`` file, each SVG pixel becomes a square of ``scale`` by ``scale`` pixels. Has no
+            effect on ``.svg`` files. Defaults to ``2``.
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
@@ -3150,9 +3150,10 @@ class SceneOperations:
         Each half-edge is drawn as an arrow beside its edge and inside its face, and is labeled with its name. A thin
         curve leads from the head of the arrow to the next half-edge of the face. The twin of a half-edge is on the
         other side of the edge. At a boundary edge, the half-edge without a face is also drawn, in gray. The viewer
-        looks at the faces from the direction of their mean normal. Faces that face away from the viewer or are seen
-        nearly edge-on are left out, and the report counts them. The extension of the file determines the format:
-        ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        looks at the faces from the direction of their mean normal. A face is left out if its normal points away from
+        the viewer, or if it is seen nearly edge-on. The report counts these faces. The extension of the file determines
+        the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not
+        change.
 
         The name of an element is a letter followed by the id of the element: ``v`` for vertices, ``h`` for half-edges,
         ``f`` for faces. The half-edges with the ids ``2e`` and ``2e + 1`` belong to the edge with the id ``e``.
@@ -3190,8 +3191,9 @@ class SceneOperations:
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
         borders of charts, and thin lines are the other edges. Charts outside the page are also drawn. To make room for
-        these charts, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
-        format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        these charts, the figure is made higher, or everything in it is drawn smaller. The extension of the file
+        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
+        does not change.
 
         Example: ``scene.uv_picture(path="uv.svg")``, in a recipe ``UvPicture(path: "uv.svg")``
 
@@ -3253,9 +3255,9 @@ class MeshOperations:
 
         :param path: The file. A relative path is relative to the working directory.
         :param images: What to do with the images of materials. If omitted, images are embedded in ``.glb`` files. For
-            ``.gltf`` and ``.obj``, the image files of the model that was loaded are copied to the folder of the output
-            file. If images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, embedded
-            images are written to separate files, because OBJ cannot embed images.
+            ``.gltf`` and ``.obj``, the image files of the loaded model are copied to the folder of the output file. If
+            images are embedded in the loaded model, a ``.gltf`` file also embeds them. For ``.obj``, embedded images
+            are written to separate files, because OBJ cannot embed images.
             ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
             ``"Copy"``: Write the images to files in the folder of the written file.
             ``"Keep"``: Write only the paths of the images, as in the original model.
@@ -3276,9 +3278,9 @@ class MeshOperations:
                 is outside the range from 0 to 1, the whole set is not quantized. Defaults to 16.
             ``"color"``: The number of bits of each component of a color. Defaults to 8.
         :param weight_sets: For a skinned mesh in a ``.gltf`` or ``.glb`` file, the largest number of sets of joints for
-            each vertex. A set has four joints and their weights, so with 2, for example, up to eight joints move a
-            vertex. If omitted, the limit is the number of sets in the file from which the mesh was read, or 1 if this
-            number is not known.
+            each vertex. A set has four joints and their weights. For example, if the limit is 2, up to eight joints
+            move a vertex. If omitted, the limit is the number of sets in the file that the mesh was loaded from, or 1
+            if this number is not known.
         :param rows: For ``.csv``, the elements that have a row in the table: vertices, faces or corners. If omitted,
             vertices.
             ``"Vertices"``: Vertices.
@@ -3305,7 +3307,7 @@ class MeshOperations:
         The operation acts on the objects that its parameter ``on`` lists. Each object becomes one mesh of the same
         name. Every patch is divided into ``segments`` x ``segments`` cells. Vertices, edges and faces of earlier
         patches have lower ids. Different patches share no vertices. If two patches have the same control points on a
-        common side, their vertices on this side have bitwise equal positions, so that ``weld(distance=0)`` joins the
+        common side, their vertices on this side have exactly equal positions. ``weld(distance=0)`` then joins the
         patches. If all points of a side coincide, as at the pole of a teapot's lid, the side becomes one vertex.
         Patches without area give no faces. The report counts the patches without area. The mesh has UVs only with
         ``uvs=True``, and normals only with ``normals=True``.
@@ -3358,8 +3360,8 @@ class MeshOperations:
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
         with n points. The points of each later polyline divide the segments of the previous polyline in the ratio t : 1
-        - t, so each polyline has one point fewer than the previous polyline. The last polyline has a single point, the
-        point of the curve at ``t``.
+        - t. Each polyline therefore has one point fewer than the previous polyline. The last polyline has a single
+        point, the point of the curve at ``t``.
 
         Example: ``mesh.curve_levels(t=0)``
 
@@ -3403,10 +3405,10 @@ class MeshOperations:
     ) -> Self:
         """Moves one control point of Bezier patches.
 
-        The operation acts on the objects that its parameter ``on`` lists. Control points of the same object that are at
-        the same position move together, so that patches with a common side stay joined. The point of a patch at the
-        parameters (u, v) moves by B(u) C(v) d. Here, d is the displacement of the control point, and B and C are the
-        Bernstein polynomials of its column and its row. The report counts the changed objects.
+        The operation acts on the objects that its parameter ``on`` lists. If other control points of the object are at
+        the same position, they also move, so that patches with a common side stay joined. The point of a patch at the
+        parameters (u, v) moves by B(u) C(v) d. Here, d is the displacement of the control point, B is the Bernstein
+        polynomial of its column, and C is the Bernstein polynomial of its row. The report counts the changed objects.
 
         Example: ``mesh.move_patch_point(index=5, to=(1, 2, 0.5))``
 
@@ -3441,13 +3443,13 @@ class MeshOperations:
         three conditions hold: ``space`` is ``Scene``, the operation has no ``on``, and ``about`` is not ``Center``. The
         operation fails if a curve would leave the plane z = 0.
 
-        Ids do not change. If the points of a mesh change, the normals, tangents and deltas of morph targets of this
-        mesh are also transformed. Other attributes do not change. If the points are mirrored (one or three negative
-        factors in ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a
-        reversed face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches,
-        u and v are exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule
-        ``Drop``, such as tangents of corners, are removed by every step that changes the connectivity. Mirroring the
-        points reverses the faces, so it also removes the attributes with this rule.
+        Ids do not change. If the points of a mesh change, its normals, its tangents and the deltas of its morph targets
+        are also transformed. Other attributes do not change. If the points are mirrored (one or three negative factors
+        in ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. In a reversed
+        face, the first corner stays first, and the other corners follow in reverse order. In mirrored patches, u and v
+        are exchanged, so that the same side of the surface remains the outside. Attributes with the edit rule ``Drop``,
+        such as tangents of corners, are removed by every step that changes the connectivity. Mirroring the points
+        reverses the faces, so it also removes the attributes with this rule.
 
         Example: ``mesh.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``
 
@@ -3464,7 +3466,7 @@ class MeshOperations:
             ``choice.Point(..)``: A point with the coordinates x, y, z.
         :param space: The coordinate system in which objects are scaled, rotated and moved. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
-            ``"Object"``: The own space of each object.
+            ``"Object"``: The coordinate system in which the object stores its points.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -3482,14 +3484,14 @@ class MeshOperations:
         Two vertices are linked if they are at most ``distance`` apart. Vertices that are connected by a chain of links
         merge into one, even if the ends of the chain are farther apart than ``distance``. Of the vertices that merge,
         the vertex with the lowest id remains, with its position and values. The other vertices are removed, so vertices
-        with higher ids get new ids. If several edges then join the same two vertices, they become one edge with the
-        values of the edge with the lowest id. Corner values, such as UVs, stay with the corners of the faces, so UV
-        seams are kept.
+        with higher ids get new ids. If several edges then join the same two vertices, they become one edge. The merged
+        edge gets the values of the edge with the lowest id. Corner values, such as UVs, stay with the corners of the
+        faces, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. After the merge, neighboring faces can have opposite orientations.
-        If all orientations in a connected part of the mesh can be made to agree, the operation reverses the faces with
-        the less frequent orientation. If faces are reversed, the report counts them, and the normals of vertices and
+        If possible, the operation then reverses faces, so that all faces of a connected part have the same orientation:
+        the more frequent one. The report counts the reversed faces. If faces are reversed, the normals of vertices and
         corners are dropped. If the result is still not a manifold, vertices and edges are copied. For example, if three
         faces share an edge, one of these faces gets a copy of the edge. The report counts the copies. If no vertices
         merge, the mesh does not change.
@@ -3515,9 +3517,9 @@ class MeshOperations:
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the operation fails. No vertex moves, and all elements
         keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
-        are negated. Attributes with the edit rule ``Drop`` (removed by every change of the connectivity), such as
-        tangents of corners, are removed. Vertices, edges and faces keep all other values. The values of a corner stay
-        at the same vertex of the same face.
+        are negated. Attributes that do not survive changes of the connectivity (edit rule ``Drop``), such as tangents
+        of corners, are removed. Vertices, edges and faces keep all other values. The values of a corner stay at the
+        same vertex of the same face.
 
         Example: ``mesh.reverse()``
 
@@ -3537,26 +3539,26 @@ class MeshOperations:
     ) -> Self:
         """Cuts polygons into triangles.
 
-        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the quadrilateral is
-        cut along the diagonal that contains its vertex with the lowest id. Two lengths count as the same if the
-        relative difference of their squares is at most 1e-12. A diagonal is bad if one of its two triangles has zero
-        area or is turned over: clockwise where the face is counter-clockwise. If the diagonal that was chosen by length
-        or id is bad and the other diagonal is not bad, the other diagonal is used. A quadrilateral with a reflex corner
-        (an angle above 180 degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also
-        joined by an edge or by a diagonal of another face. A duplicate is replaced with the other diagonal if the other
-        diagonal is not a duplicate, and if either both diagonals are bad or neither is bad. The report counts the
-        duplicates that remain.
+        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length, the diagonal at the
+        vertex with the lowest id is used. Two lengths count as the same if the relative difference of their squares is
+        at most 1e-12. A diagonal is bad if one of its two triangles has zero area or is turned over. A triangle is
+        turned over if it is clockwise where the face is counter-clockwise. If exactly one diagonal is bad, the good
+        diagonal is used, regardless of lengths and ids. A quadrilateral with a reflex corner (an angle above 180
+        degrees) is therefore cut at that corner. A diagonal is a duplicate if its ends are also joined by an edge or by
+        a diagonal of another face. A duplicate is replaced with the other diagonal of the quadrilateral, unless the
+        other diagonal is worse or also a duplicate. The report counts the duplicates that remain.
 
-        A face with more than four corners is projected along its normal. The projected face is cut by ear clipping, or
-        into monotone pieces if it has more than 4096 corners. Then diagonals are flipped until the triangulation is a
-        constrained Delaunay triangulation. Some faces cannot be triangulated in this way: faces with zero area, faces
-        whose sides cross, faces with more than 4096 corners whose sides overlap, and faces with more than ten million
-        corners. A face that cannot be triangulated in this way becomes a triangle fan around its vertex with the lowest
-        id. The report counts these faces.
+        A face with more than four corners is projected along its normal. If the face has at most 4096 corners, it is
+        cut into triangles by ear clipping. A larger face is first cut into monotone polygons, which are then cut into
+        triangles. Then diagonals are flipped until the triangulation is a constrained Delaunay triangulation. Some
+        faces cannot be triangulated in this way: faces with zero area, faces with crossing sides, and faces with more
+        than ten million corners. Faces with more than 4096 corners also cannot be triangulated in this way if their
+        sides overlap. Each of these faces becomes a triangle fan around its vertex with the lowest id. The report
+        counts these faces.
 
         In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids.
-        The triangles have the values of the face. Vertices and edges keep their ids. A corner of a triangle has the
-        values of the old face's corner at the same vertex.
+        The triangles have the values of the face. Vertices and edges keep their ids. Each corner of a triangle has the
+        values that the face had at the same corner.
 
         Example: ``mesh.triangulate()``
 
@@ -3581,29 +3583,27 @@ class MeshOperations:
         """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh that the earlier flips have
-        produced. A flip is refused if the edge is on the boundary, if the same face is on both sides of the edge, or if
-        an end of the edge has only two edges. A flip is also refused if the two corners opposite to the edge are the
-        same vertex or are already joined by an edge. If the edge is a seam (an edge whose corner values, such as UVs,
-        differ between its two sides), the flip is refused unless ``seams`` is ``Drop``. All elements keep their ids,
-        and no vertex moves. Vertices, edges and faces keep their values. Each of the two faces gets one new corner. The
-        new corner of a face gets its values from the corner of the other face at the same vertex. All other corners
-        keep their values.
+        produced. A flip is refused if the edge is on the boundary or if the same face is on both sides of the edge. A
+        flip is also refused if an end of the edge has only two edges. A flip is also refused if the new edge would join
+        a vertex to itself, or would join two vertices that an edge already joins. The flip of a seam is refused unless
+        ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their
+        values. Each of the two faces gets one new corner. The new corner of a face gets its values from the corner of
+        the other face at the same vertex. All other corners keep their values.
 
         If a face beside the edge has more than three corners, the edge turns inside the polygon that the two faces form
-        together: each end of the edge moves to the next corner of this polygon, counter-clockwise. With
+        together. Each end of the edge moves to the next corner of this polygon, counter-clockwise. With
         ``until="Delaunay"`` or ``until="Valence"``, only edges between two triangles are flipped.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the angles of the
         triangles (``Delaunay``) or the numbers of edges at the vertices (``Valence``). The operation makes several
-        passes over the edges. It stops after a pass that flips no edge, or after ``passes`` passes. Flips with
-        ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
-        that would improve the mesh is refused, the edge is left unchanged, and the operation does not fail. The report
-        counts the refused flips for each reason. The report also states the number of passes, and whether the operation
-        stopped because of the limit ``passes``.
+        passes over the edges. It stops after a pass that flips no edge, or after ``passes`` passes. The flips neither
+        fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the edge is
+        left unchanged, and the operation does not fail. The report counts the refused flips for each reason. The report
+        also states the number of passes, and whether the operation stopped because of the limit ``passes``.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``. For example, ``sel.Flat(below=30)`` selects only edges at which the surface bends by less than 30
-        degrees, and ``sel.Not(sel.Tagged("keep"))`` selects only edges without the tag "keep".
+        degrees. ``sel.Not(sel.Tagged("keep"))`` selects only edges without the tag "keep".
 
         Example: ``mesh.flip_edges(edges="All")``
 
@@ -3644,8 +3644,8 @@ class MeshOperations:
         edge adds 1 vertex, 2 edges and 1 face. If a face beside the edge has more than three corners, the face is not
         cut and only gains the new vertex as a corner. Edges are split in order of their ids; new edges are not split
         again. New vertices get the highest ids, in the order of the splits. Attribute values at the new vertex and at
-        its corners are interpolated between the ends of the edge. At a seam (an edge whose corner values, such as UVs,
-        differ between its two sides), the corner values of each side are interpolated separately.
+        its corners are interpolated between the ends of the edge. A seam is an edge whose corner values, such as UVs,
+        differ between its two sides. At a seam, the corner values of each side are interpolated separately.
 
         Example: ``mesh.split_edges(edges="All")``
 
@@ -3678,8 +3678,8 @@ class MeshOperations:
         face is not removed and only loses a corner. Of the two ends, the vertex with the lower id is kept. Edges are
         collapsed in order of their ids. An edge that an earlier collapse removed counts as refused.
 
-        A collapse is refused if it would change the topology of the surface or make elements coincide. The report or
-        the error message gives one of these reasons:
+        A collapse is refused if it would change the topology of the surface, or if two different elements would become
+        one. The report or the error message gives one of these reasons:
 
         - ``JoinsBoundaries``: both ends of the edge are on the boundary, but the edge itself is not.
         - ``Link``: the ends have a common neighboring vertex that is not a corner of a triangle beside the edge.
@@ -3692,10 +3692,10 @@ class MeshOperations:
           sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
-        Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. At a
-        seam (an edge whose corner values, such as UVs, differ between its two sides), the corner values of each side
-        are interpolated separately. When two edges become one, the remaining edge gets the larger of their crease
-        values (sharpness for subdivision) and the tags of both edges. Normals are dropped.
+        Attribute values at the remaining vertex and at its corners are interpolated between the ends of the edge. A
+        seam is an edge whose corner values, such as UVs, differ between its two sides. At a seam, the corner values of
+        each side are interpolated separately. When two edges become one, the remaining edge gets the larger crease
+        value (sharpness for subdivision) and the tags of both edges. Normals are dropped.
 
         Example: ``mesh.collapse_edges(edges="All", on_refusal="Skip")``
 
@@ -3729,10 +3729,9 @@ class MeshOperations:
         that are left with two edges, use ``dissolve_vertices(vertices=sel.Valence(2))`` in a later operation. The
         remaining elements keep their order and their values but get new ids.
 
-        An edge cannot be removed if it is on the boundary, if the same face is on both of its sides, or if one of its
-        ends has only two edges. An edge also cannot be removed if its two faces have a common vertex that is not an end
-        of the edge. A seam (an edge whose corner values, such as UVs, differ between its two sides) is removed only if
-        ``seams`` is ``Drop``.
+        An edge cannot be removed if it is on the boundary or if the same face is on both of its sides. It also cannot
+        be removed if one of its ends has only two edges. The two faces beside the edge must have no common vertices
+        except the ends of the edge. A seam is removed only if ``seams`` is ``Drop``.
 
         Example: ``mesh.dissolve_edges(edges=sel.Between(0, 1))``
 
@@ -3763,22 +3762,23 @@ class MeshOperations:
         """Replaces edges with faces of constant width.
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. On both sides, the new face
-        extends up to the distance ``width`` from the old edge. An edge that is not selected, but shares an end with a
-        selected edge, is shortened at this end. If the two edges are neighboring sides of a face, the new end is where
-        the distance from the selected edge is ``width``, but at most four times ``width`` from the old end. If the two
-        edges are not neighboring sides of a face, the new end is at the distance ``width`` from the old end. If two
-        selected edges are neighboring sides of a face, a new vertex inside this face replaces the corner between them.
-        If three or more new vertices replace an old vertex, another new face joins the new vertices. All selected edges
-        are beveled at once, so a cube that is beveled at all edges keeps all of its symmetries.
+        extends up to the distance ``width`` from the old edge. An edge that is not selected, but ends at a vertex of a
+        selected edge, is shortened at this vertex. If the shortened edge and the selected edge are neighboring sides of
+        a face, the new end of the shortened edge is at the distance ``width`` from the selected edge. However, the edge
+        is shortened by at most four times ``width``. If the two edges are not neighboring sides of a face, the edge is
+        shortened by ``width``. If two selected edges are neighboring sides of a face, a new vertex inside this face
+        replaces the corner between them. If three or more new vertices replace an old vertex, another new face joins
+        the new vertices. All selected edges are beveled at once. For example, a cube with 12 selected edges keeps all
+        of its symmetries.
 
-        The ends of the edges are removed, so the ids of the vertices after them change. New vertices get the highest
-        ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in order of these
-        edges, then the faces that replace vertices. Edges get new ids.
+        The vertices at the ends of selected edges are removed, so vertices with higher ids get new ids. New vertices
+        get the highest ids. Faces keep their ids. New faces get the highest ids: first the faces that replace edges, in
+        order of these edges, then the faces that replace vertices. Edges get new ids.
 
-        The values of a new vertex are interpolated in an old face at the position of the vertex, so textures stay in
-        place. A new face has the values (material, tags) of one of the old faces beside it. It is not specified which
-        of these faces is used, but the choice is the same in every run. New edges have zero values (no crease, no
-        tags). Normals are dropped.
+        The values of a new vertex are interpolated between corners of an old face, so textures stay in place. A new
+        face has the values (material, tags) of one of the old faces beside it. It is not specified which of these faces
+        is used, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
+        dropped.
 
         An edge cannot be beveled if it is on the boundary (reason: ``Boundary``), or if one of its ends has only one
         other edge and this other edge is not selected (reason: ``FewEdges``). If the bevels at the two ends of any edge
@@ -3788,10 +3788,10 @@ class MeshOperations:
         Example: ``mesh.bevel_edges(edges=sel.Between(0, 2), width=0.25)``
 
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
-        :param width: The distance, in scene units, from the beveled edge to each of the two new edges that replace it,
-            one in each of the faces beside the beveled edge. Either ``width`` or ``fraction`` must be given.
-        :param fraction: The width, divided by the length of the shortest edge among the selected edges and all edges
-            that share a vertex with them. Above 0 and below 1.
+        :param width: The distance of each new edge from the old edge, in scene units. Two new edges replace the old
+            edge: one in each of the faces beside it. Either ``width`` or ``fraction`` must be given.
+        :param fraction: The width as a fraction of a length: the length of the shortest edge that is selected or shares
+            a vertex with a selected edge. Above 0 and below 1.
         :param on_refusal: What to do when an edge cannot be beveled. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
@@ -3814,9 +3814,9 @@ class MeshOperations:
 
         The operation sets two attributes to ``sharpness``: the edge attribute ``crease`` of the selected edges, and the
         vertex attribute ``corner`` of the selected vertices. Elements that are not selected keep their values, or get 0
-        if the attribute did not exist before the operation. With sharpness s, Loop and Catmull-Clark subdivision keep
-        an edge or a vertex sharp in the first s levels and smooth it in later levels. For example, an edge with
-        sharpness 2.5 is sharp in the first two levels. In the third level, the positions are halfway between the sharp
+        if the attribute did not exist before the operation. In Loop and Catmull-Clark subdivision, an edge or a vertex
+        with sharpness s stays sharp in the first s levels and becomes smooth in later levels. For example, an edge with
+        sharpness 2.5 is sharp in the first two levels. The third level places the vertices halfway between the sharp
         and the smooth result. An edge with sharpness 10 stays sharp, however many levels follow. Boundary edges are
         always sharp.
 
@@ -3850,12 +3850,12 @@ class MeshOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face. The other triangles and the new vertices and edges get the highest ids, in
         order of the poked faces. The new vertex is at the mean of the positions of the corners, moved along the normal
-        of the face by ``distance``. At the new vertex, interpolated attributes of vertices and corners, such as UVs,
-        get the mean of their values at the corners of the face. The triangles have the values of their face, and the
-        new edges have zero values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
+        of the face by ``distance``. At the new vertex, interpolated attributes, such as UVs, get the mean of their
+        values at the corners of the face. The triangles have the values of their face, and the new edges have zero
+        values (no crease, no tags). If ``distance`` is not 0, normals are dropped.
 
-        A face cannot be poked if it contains a vertex twice, if the position of the new vertex would not be finite, or
-        if the mesh already has the largest supported number of elements.
+        A face cannot be poked if it contains a vertex twice, or if the position of the new vertex would not be finite.
+        No face can be poked if the mesh already has the largest supported number of elements.
 
         Example: ``mesh.poke_faces()``
 
@@ -3923,17 +3923,17 @@ class MeshOperations:
         edges or vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
-        The removal is refused if the remaining faces around a vertex would form several fans (groups of faces that are
-        connected across edges) that meet only at that vertex. In this case, the operation with ``on_refusal="Skip"``
-        tries to remove the faces one by one, in order of their ids. The operation repeats these attempts until no more
-        selected faces can be removed. Selected faces that still cannot be removed are kept, and the report counts them
-        as refused.
+        The removal is refused if the remaining faces around a vertex would form several fans that meet only at this
+        vertex. A fan is a group of faces that are connected across edges. With ``on_refusal="Skip"``, the operation
+        then tries to remove the faces one by one, in order of their ids. The operation repeats these attempts until no
+        more selected faces can be removed. Selected faces that still cannot be removed are kept, and the report counts
+        them as refused.
 
         Example: ``mesh.delete_faces(faces="All")``
 
         :param faces: The faces to delete. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param on_refusal: What to do when not all faces can be removed. Defaults to ``"Error"``.
+        :param on_refusal: What to do when some of the faces cannot be removed. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
@@ -3959,25 +3959,25 @@ class MeshOperations:
         Selected faces that are connected across edges form a region. A region moves as a whole, and has one normal and
         one center. A region is first scaled, then rotated, and then moved. Scaling and rotation are about the center of
         the region, which is the mean position of its vertices. Side faces with four corners are added along the rim of
-        the region. The rim of a region consists of the edges with a face of the region on exactly one side. If all
-        faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed region (for
-        example, all faces of a cube) has no rim, so it moves without new side faces. A region has no normal if the area
-        vectors of its faces cancel each other out, as in a closed region. For a region without a normal, ``by`` must be
-        an ``choice.Offset``.
+        the region. An edge belongs to the rim if exactly one of its two sides has a face of the region. If all faces of
+        an open sheet are extruded, the result is a box that is open where the sheet was. A closed region (for example,
+        all faces of a cube) has no rim, so it moves without new side faces. A region has no normal if the area vectors
+        of its faces cancel each other out, as in a closed region. For a region without a normal, ``by`` must be an
+        ``choice.Offset``.
 
         The moved faces keep their ids. A later operation can therefore extrude the same faces again, for example to
         grow an arm out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the
-        old rim do not move, and the moved faces get a new rim. New side faces get the highest ids. They are ordered by
-        region (by the lowest face id of each region), then by the id of the adjacent moved face. Around each moved
-        face, the order is counter-clockwise from its first corner. Each side face adds one new vertex, so the new
-        vertices are in the order of the side faces. A new vertex is a copy of the first vertex of its side face. The
-        first vertex is on the old rim.
+        old rim do not move, and the moved faces get a new rim. New side faces get the highest ids. Side faces are
+        ordered by region, and within a region by the id of the adjacent moved face. Regions are ordered by their lowest
+        face id. Around each moved face, the order is counter-clockwise from its first corner. Each side face adds one
+        new vertex, so the new vertices are in the order of the side faces. A new vertex is a copy of a vertex on the
+        old rim: the first vertex of its side face.
 
         A side face has the attribute values (material, tags) of the adjacent moved face. The corners of a side face
         have the values of the corners of the moved face, so textures have no seam between the two faces. However, a
-        side face shows only one line of the texture: the line along the edge of the moved face, stretched over the
-        whole side face. The edges of the new rim have the values of the edges of the old rim (creases, tags). The edges
-        between the old and the new rim have zero values (no crease, no tags). Normals are dropped.
+        side face shows only one line of the texture: the line along the edge of the moved face. This line is stretched
+        over the whole side face. The edges of the new rim have the values of the edges of the old rim (creases, tags).
+        The edges between the old and the new rim have zero values (no crease, no tags). Normals are dropped.
 
         Example: ``mesh.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``
 
@@ -4055,8 +4055,8 @@ class MeshOperations:
         and counter-clockwise around each face from its first corner. A zero-area face has no normal, so its inner face
         is not raised.
 
-        Attribute values at a new corner or vertex are interpolated with the parameter ``fraction``: from the value at
-        the outer corner (0) to the mean of the values at all corners of the face (1). The faces of the ring have the
+        Attribute values at a new corner or vertex are interpolated by ``fraction``. Here, 0 stands for the value at the
+        outer corner, and 1 stands for the mean of the values at all corners of the face. The faces of the ring have the
         values of the old face (material, tags). The edges of the inner face have the values of the old edges beside
         them. Normals are dropped.
 
@@ -4098,10 +4098,10 @@ class MeshOperations:
         remaining elements keep their order and their values but get new ids. Normals are dropped.
 
         A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring
-        vertex would be left with a single edge, which ends inside a face. A removal is also refused if a face would
-        contain a vertex twice or have fewer than three corners, or if a new edge would join two vertices that an edge
-        already joins. A vertex on a seam (an edge whose corner values, such as UVs, differ between its two sides) is
-        removed only if ``seams`` is ``Drop``.
+        vertex would be left with a single edge, because this edge would end inside a face. A removal is also refused if
+        a face would contain a vertex twice or have fewer than three corners. A removal is also refused if it would join
+        two vertices that an edge already joins. A vertex on a seam (an edge whose corner values, such as UVs, differ
+        between its two sides) is removed only if ``seams`` is ``Drop``.
 
         Example: ``mesh.dissolve_vertices(vertices=sel.Vertices([1]))``
 
@@ -4140,8 +4140,8 @@ class MeshOperations:
         the highest ids, in order of the selected vertices.
 
         Attribute values at a cut are interpolated between the two ends of the cut edge, so textures do not move on the
-        surface. A new face has the values (material, tags) of one of the faces at the vertex. Which face is used is not
-        specified, but the choice is the same in every run. New edges have zero values (no crease, no tags). Normals are
+        surface. A new face has the values (material, tags) of one of the faces at the vertex. The choice of this face
+        is not specified, but it is the same in every run. New edges have zero values (no crease, no tags). Normals are
         dropped.
 
         A vertex cannot be beveled if it is on the boundary or has fewer than three edges. It also cannot be beveled if
@@ -4173,7 +4173,7 @@ class MeshOperations:
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
         removed, because they would contradict the vertex normals. The normal of a vertex is the zero vector if the
-        vertex has no faces or only zero-area faces, or if the normals of its faces cancel each other out. The report
+        vertex has no faces, if all its faces have zero area, or if their normals cancel each other out. The report
         counts these vertices.
 
         Example: ``mesh.vertex_normals()``
@@ -4231,12 +4231,12 @@ class MeshOperations:
         ``with_="Triangles"``, the hole gets n - 2 triangles and n - 3 new edges.
 
         For holes with up to 500 edges, the triangles have the smallest possible total area. A hole with more than 500
-        edges is filled one triangle at a time. Each triangle cuts off the corner of the remaining hole whose two
-        neighboring vertices are closest to each other. Straight and reflex corners are cut off last. If such a large
+        edges is filled one triangle at a time. Each triangle cuts off a corner of the remaining hole: the corner whose
+        two neighboring vertices are closest to each other. Straight and reflex corners are cut off last. If the large
         hole is far from convex, the triangles can overlap. In holes of any size, a new edge never joins two vertices
-        that an existing edge already joins. If no triangulation without such a duplicate edge is found, filling the
-        hole is refused (reason: ``DuplicateEdge``). A hole with only two edges cannot be filled (reason:
-        ``WrongPlace``). To close a hole with two edges, use ``stitch()``.
+        that an existing edge already joins. If the operation finds no triangulation without duplicate edges, the hole
+        is not filled (reason: ``DuplicateEdge``). A hole with only two edges cannot be filled (reason: ``WrongPlace``).
+        To close a hole with two edges, use ``stitch()``.
 
         New faces have the values of a face beside the hole. A new corner has the values of an existing corner at the
         same vertex. Normals are dropped if a hole was filled.
@@ -4277,9 +4277,10 @@ class MeshOperations:
         mesh, which then gets a tunnel or a handle. They can also be in two separate parts of the mesh, which then
         become connected. To bridge holes of two objects, first use ``join()`` to make one mesh of the objects.
 
-        Each new face copies the attribute values of the adjacent face at the hole with more edges. If both holes have
-        the same number of edges, the values come from the adjacent face at the hole of the vertex ``first``. A new
-        corner has the values of an existing corner at the same vertex. Normals are dropped.
+        Each new face is beside one edge of the hole that has more edges. If both holes have the same number of edges,
+        this edge belongs to the hole of the vertex ``first``. The new face copies the attribute values of the old face
+        on the other side of this edge. A new corner has the values of an existing corner at the same vertex. Normals
+        are dropped.
 
         The operation is refused if one of the given vertices is not on the boundary (reason: ``NotBoundary``), or if
         both are on the same hole (reason: ``WrongPlace``). The operation is also refused if a new edge would join two
@@ -4306,10 +4307,10 @@ class MeshOperations:
         """Joins boundary edges that coincide.
 
         Two boundary edges coincide if each end of one edge is at most ``distance`` from the corresponding end of the
-        other edge. Two edges that coincide only with each other form a pair and are joined. If an edge coincides with
-        several edges, joining these edges is refused (reason: ``NonManifold``). To avoid this refusal, choose a
-        ``distance`` that is less than the lengths of the edges. ``weld()`` merges all vertices that are close together,
-        but ``stitch()`` merges only the ends of edges that it joins.
+        other edge. Two edges that coincide only with each other form a pair and are joined. An edge that coincides with
+        several edges cannot be joined (reason: ``NonManifold``). To avoid this, choose a ``distance`` that is less than
+        the lengths of the edges. ``weld()`` merges all vertices that are close together, but ``stitch()`` merges only
+        the ends of edges that it joins.
 
         When two vertices become one, the vertex with the lower id is kept, with its position and values. When two edges
         become one, the edge with the lower id is kept, with its values. The other vertex or edge is removed, so all
@@ -4353,10 +4354,10 @@ class MeshOperations:
         moves. Copies of vertices and edges have the values of the originals. Corners keep their values. ``stitch()`` is
         the inverse operation: it joins the two sides of a cut again.
 
-        An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if neither of its ends
-        is on the boundary or on another edge to cut (reason: ``DuplicateEdge``). The two sides of such a cut would
-        still join the same two vertices, so the mesh would not open. All edges are cut at once, so a longer path inside
-        the mesh can be cut.
+        An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if it touches neither
+        the boundary nor another edge to cut (reason: ``DuplicateEdge``). Both sides of the cut would still join the
+        same two vertices, so the mesh would not open. However, a path of several edges inside the mesh can be cut,
+        because all edges are cut at once.
 
         Example: ``mesh.cut(edges="All")``
 
@@ -4471,7 +4472,7 @@ class MeshOperations:
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
         values are smoothed as the parameter ``face_varying`` specifies, and seams are kept. When an edge or a triangle
         is split, its parts copy its attribute values, such as tags and materials. Normals are dropped, because they
-        would be wrong. An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
+        would be wrong. If an edge or a vertex has the sharpness s (see ``crease()``), it stays sharp for s levels.
 
         Example: ``mesh.loop_subdivide(levels=2)``
 
@@ -4481,8 +4482,8 @@ class MeshOperations:
             ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
             ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
                 than ``below``.
-        :param weights: The weights for the new position of an old vertex: a weighted mean of its old position and its
-            neighbors. Defaults to ``"Warren"``.
+        :param weights: The weights that determine the new positions of old vertices. An old vertex moves to a weighted
+            mean of its old position and its neighbors. Defaults to ``"Warren"``.
             ``"Warren"``: The weight u of a neighbor is 3/16 if the vertex has n = 3 neighbors, and otherwise 3/(8n).
             ``"Loop"``: If the vertex has n neighbors, the weight u of a neighbor is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as
                 in Loop's thesis, 1987.
@@ -4507,10 +4508,10 @@ class MeshOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
             and tangents of this surface. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
-            four, so that no vertex lies in the middle of an edge of a neighboring triangle. The surface outside the
-            refined faces does not move. The documentation of the Rust function ``subdivision::refine_faces`` describes
-            the ids of new elements. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
-            ``meshwright.sel``.
+            four. Without these cuts, new vertices would lie in the middle of edges of these triangles. The surface
+            outside the refined faces does not move. The documentation of the Rust function
+            ``subdivision::refine_faces`` describes the ids of new elements. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4534,13 +4535,13 @@ class MeshOperations:
         Each level creates one quad at each corner of each old face. A level turns V vertices, E edges and F faces with
         C corners in total into V + E + F vertices, 2 E + C edges and C quads. The Euler characteristic V - E + F does
         not change. Old vertices keep their ids. The vertex on edge e has the id V + e, and the vertex at the center of
-        face f has the id V + E + f. Edge e becomes edges 2e and 2e + 1. The quads are numbered in the order of the old
-        faces and, in each face, in the order of its corners.
+        face f has the id V + E + f. Edge e becomes edges 2e and 2e + 1. The quads are numbered face by face, in the
+        order of the old faces. The quads of an old face are in the order of the corners of this face.
 
         Vertex attributes are smoothed with the same weights as the positions. Texture coordinates and other corner
         values are smoothed as the parameter ``face_varying`` specifies, and seams are kept. When an edge or a face is
         split, its parts copy its attribute values, such as tags and materials. Normals are dropped, because they would
-        be wrong. An edge or a vertex to which ``crease()`` gave the sharpness s stays sharp for s levels.
+        be wrong. If an edge or a vertex has the sharpness s (see ``crease()``), it stays sharp for s levels.
 
         Example: ``mesh.catmull_clark(levels=2)``
 
@@ -4668,11 +4669,11 @@ class MeshOperations:
         """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
-        second level also cuts the boundary edges, and thus adds one more vertex and one more edge for each boundary
-        edge. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new vertex in face f
-        has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step counts its own
-        levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of one level each leave
-        the boundary edges uncut.
+        second level also cuts each boundary edge in three. For each boundary edge, the counts of vertices and edges are
+        then larger by one. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new
+        vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step
+        counts its own levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of one
+        level each leave the boundary edges uncut.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
         within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
@@ -4708,8 +4709,8 @@ class MeshOperations:
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. The Euler
         characteristic V - E + F does not change. The shrunk face inside old face f has the id f, and the new face at
         old edge e has the id F + e. The new faces at old vertices have the highest ids. Isolated vertices are kept. The
-        ids of isolated vertices follow the ids of all other vertices. Isolated vertices do not become faces, and
-        neither do vertices inside the mesh that have only two edges.
+        ids of isolated vertices follow the ids of all other vertices. Two kinds of vertices do not become faces:
+        isolated vertices, and vertices inside the mesh that have only two edges.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are smoothed within each
         old face separately. The new faces at edges and vertices mix corner values of several old faces. At a seam, the
@@ -4745,29 +4746,30 @@ class MeshOperations:
 
         Every edge that crosses the plane gets a new vertex at the crossing point. Every face that crosses the plane is
         cut along the plane. A concave face can be cut in several places. A vertex near the plane is treated as if it
-        were on the plane, and is not moved. Near means a distance from the plane of at most 1e-9 times the longest side
-        of the bounding box, or at most 1e-14 times the largest absolute coordinate. Every edge has two half-edges. When
-        an edge is cut, the part at the start of the half-edge with the lower id keeps the id of the edge. When a face
-        is cut, the part with the first corner keeps the id of the face. New elements get the highest ids. Where an edge
-        crosses the plane, attributes are interpolated. At a seam (an edge whose corner values, such as UVs, differ
-        between its two sides), the corner values of each side are interpolated separately.
+        were on the plane, and is not moved. A vertex is near if its distance from the plane is at most 1e-9 times the
+        longest side of the bounding box. A distance of at most 1e-14 times the largest absolute coordinate also counts
+        as near. Every edge has two half-edges. When an edge is cut, one part keeps the id of the edge: the part that
+        contains the start of the half-edge with the lower id. When a face is cut, the part that contains the first
+        corner keeps the id of the face. New elements get the highest ids. Where an edge crosses the plane, attributes
+        are interpolated. At a seam (an edge whose corner values, such as UVs, differ between its two sides), the corner
+        values of each side are interpolated separately.
 
         With ``keep="Front"``, the part of the mesh behind the plane is removed. With ``keep="Back"``, the part in front
-        of the plane is removed. A face that lies in the plane belongs to the back if its normal points to the front,
-        because the face then closes the solid behind the plane. Vertices that are left without a face are removed. If
-        the remaining faces around a vertex form several fans (groups of faces connected across edges), each fan gets a
+        of the plane is removed. If a face lies in the plane and its normal points to the front, the face belongs to the
+        back, because it closes the solid behind the plane. Vertices that are left without a face are removed. If the
+        remaining faces around a vertex form several fans (groups of faces connected across edges), each fan gets a
         separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
         later operation.
 
         Example: ``mesh.bisect(normal=(0, 0, 1))``
 
-        :param normal: The normal of the plane. It points to the front side. The length of the normal does not matter
-            but must not be 0.
+        :param normal: The normal of the plane. The normal points to the front side. The length of the normal does not
+            matter but must not be 0.
         :param point: A point on the plane.
         :param keep: The part of the mesh to keep: one side of the plane, or both sides. Defaults to ``"Both"``.
             ``"Both"``: Both sides.
-            ``"Front"``: The side of the plane that the normal of the plane points to.
-            ``"Back"``: The side of the plane that the normal of the plane points away from.
+            ``"Front"``: The side in front of the plane: the normal of the plane points to this side.
+            ``"Back"``: The side behind the plane: the normal of the plane points away from this side.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
         :param id, progress: See :class:`Mesh`.
@@ -4787,11 +4789,11 @@ class MeshOperations:
         """Replaces one half of a mesh with the mirror image of the other half.
 
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
-        the halves are joined at the plane. Vertices that ``bisect()`` would treat as on the plane are moved exactly
-        onto the plane, so that the result is symmetric. Faces that lie in the plane are removed, because they would
-        become walls inside the result. The halves are joined at the vertices on the plane that are on the boundary of
-        the kept half. Where the surface only touches the plane, without a boundary there, the halves are not joined.
-        The report counts the faces that are removed completely, but not the faces that the plane cuts.
+        the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto the plane,
+        so that the result is symmetric. Faces that lie in the plane are removed, because they would become walls inside
+        the result. A vertex on the plane joins the halves if it is on the boundary of the kept half. Where the surface
+        only touches the plane, without a boundary there, the halves are not joined. The report counts the faces that
+        are removed completely, but not the faces that the plane cuts.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and joint weights. Normals and
@@ -4803,8 +4805,8 @@ class MeshOperations:
             but must not be 0.
         :param point: A point on the plane.
         :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
-            ``"Front"``: The side of the plane that the normal of the plane points to.
-            ``"Back"``: The side of the plane that the normal of the plane points away from.
+            ``"Front"``: The side in front of the plane: the normal of the plane points to this side.
+            ``"Back"``: The side behind the plane: the normal of the plane points away from this side.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4839,7 +4841,7 @@ class MeshOperations:
           different tags or materials, tagged edges, creases, and the edges that ``features`` selects. A line can lose
           vertices, but its ends, and the vertices where lines meet, keep their exact positions.
         - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
-          (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
+          (Hoppe, 1999). New vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Stored normals are kept, so that a simplified mesh is shaded like the
           original. The vertex attributes that ``measure()`` stores also influence the result, and the report lists
           their names. To avoid this influence, use ``measure()`` after this operation.
@@ -4852,8 +4854,7 @@ class MeshOperations:
 
         No collapse turns a triangle over. Remaining elements get new ids, in the order of their old ids. If ``error``
         is not given and the number of faces cannot be reached, the operation is refused (reason: ``Unreached``), and
-        the message states why. With ``on_refusal="Skip"``, the result is instead the simplified mesh with the fewest
-        faces that the operation reached.
+        the message states why. With ``on_refusal="Skip"``, the operation instead simplifies the mesh as far as it can.
 
         Example: ``mesh.simplify(ratio=0.5)``
 
@@ -4862,9 +4863,9 @@ class MeshOperations:
             change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
-            limit is guaranteed: the operation sums upper bounds of the movements of all collapses. The sum
-            overestimates the true distance. If the limit ends the operation, the true distance is usually between a
-            third of the limit and the limit. If omitted, there is no limit.
+            limit is guaranteed: for each collapse, the operation computes an upper bound of how far the surface moves,
+            and adds up these bounds. The sum overestimates the true distance. If the limit ends the operation, the true
+            distance is usually between a third of the limit and the limit. If omitted, there is no limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
@@ -4917,10 +4918,10 @@ class MeshOperations:
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
         - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
-          vertices are the three corners of the old triangle at this position. A tagged vertex can move only inside a
-          tagged region. A tagged vertex is inside such a region if all corners of one of its triangles, or both of its
-          neighbors on a line, also have the tag. All other tagged vertices keep their exact positions. Vertices to
-          which ``crease()`` gave a sharpness also keep their exact positions.
+          vertices are the three corners of the old triangle at this position. A tagged vertex can move only if all
+          corners of one of its triangles, or both of its neighbors on a line, also have the tag. All other tagged
+          vertices keep their exact positions. Vertices with a sharpness (see ``crease()``) also keep their exact
+          positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. When the operation
         starts, it estimates the number of faces from the area. The operation fails if a mesh with this number of faces
@@ -4945,8 +4946,9 @@ class MeshOperations:
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. To
-            keep this limit, some edges can become shorter than the target length. The distance is measured at the end
-            of the operation, in both directions and for all points of both surfaces. If omitted, there is no limit.
+            stay below this limit, the operation can make some edges shorter than the target length. The distance is
+            measured at the end of the operation, in both directions and for all points of both surfaces. If omitted,
+            there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param passes: The largest number of passes, from 1 to 1000. The operation ends earlier if a pass changes almost
@@ -5008,8 +5010,8 @@ class MeshOperations:
             ``"Free"``: The boundary is smoothed as a set of curves: the movement of a vertex on the boundary depends
                 only on its neighbors along the boundary.
         :param keep_volume: Whether to restore the original volume of the mesh after smoothing. To restore the volume,
-            the operation shifts all vertices that it is allowed to move by the same distance along their normals. The
-            mesh must be closed. Defaults to ``False``.
+            all vertices that are allowed to move are shifted by the same distance along their normals. The mesh must be
+            closed. Defaults to ``False``.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -5034,11 +5036,12 @@ class MeshOperations:
         attribute with the same type of values, the attribute is overwritten. If the type of values differs, the
         operation fails. If the operation does not name its objects with ``on``, it changes all meshes except ``from_``.
 
-        All corners of a face of the changed mesh take their values from the same side of a seam of the source object.
-        No triangle is therefore stretched across the seam in the texture. Usually the side that is nearest to the
-        center of the face is used. Seams divide the source object into charts. Where parts of the source object
-        intersect, the chart that is nearest to the center can be far from the corners of the face. If the chart that is
-        nearest to a corner is much nearer to the whole face, this chart is used instead.
+        Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
+        same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This
+        prevents triangles from stretching across a seam of the texture. Usually the chart that is nearest to the center
+        of the face is used. Where parts of the source object intersect, the chart that is nearest to the center can be
+        far from the corners of the face. If another chart is nearest to a corner, and is much nearer to the face as a
+        whole, this other chart is used.
 
         Elements that are farther from the source object than ``within`` keep their values, or get zeros if the
         attribute is new. All corners of a face are treated alike. If one of the corners or the center of the face is
@@ -5075,9 +5078,8 @@ class MeshOperations:
         is 1 at selected vertices and falls smoothly to 0 at the distance r. Distances are measured along straight
         lines, not along the surface.
 
-        With ``by=choice.Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
-        faces, weighted by the areas of the faces. Vertices without a normal, such as isolated vertices, do not move.
-        The report counts these vertices.
+        With ``by=choice.Distance(..)``, each vertex moves along its own normal: the area-weighted mean of its face
+        normals. Vertices without a normal, such as isolated vertices, do not move. The report counts these vertices.
 
         Example: ``mesh.move_vertices(vertices=sel.Vertices([0]), by=choice.Offset((0, 0, 0.5)))``
 
@@ -5090,8 +5092,8 @@ class MeshOperations:
                 becomes this point.
             ``choice.Rotate(..)``: Rotates around an axis through the mean of the positions of the selected vertices.
             ``choice.Scale(..)``: Scales along x, y and z about the mean of the positions of the selected vertices.
-        :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
-            If omitted, only the selected vertices move.
+        :param falloff: The distance from the selected vertices at which the movement becomes 0, in scene units. If
+            omitted, only the selected vertices move.
         :param id, progress: See :class:`Mesh`.
         :returns: The new mesh. This mesh does not change.
         """
@@ -5109,12 +5111,12 @@ class MeshOperations:
         """Moves vertices along their normals, by amounts that vary over the surface.
 
         Each vertex moves along its normal by ``distance`` times the value that ``by`` gives for this vertex. The normal
-        of a vertex is the mean of the normals of its faces, weighted by the areas of the faces. Vertices without a
-        normal, such as isolated vertices, do not move. The report counts these vertices. Normals and tangents are
-        dropped. Faces, element ids and other attributes do not change.
+        of a vertex is the area-weighted mean of its face normals. Vertices without a normal, such as isolated vertices,
+        do not move. The report counts these vertices. Normals and tangents are dropped. Faces, element ids and other
+        attributes do not change.
 
-        The computation uses only functions that give the same results on all machines, so the displaced mesh is
-        identical on all machines.
+        The displaced mesh is identical on all machines, because the computation uses only functions that do not depend
+        on the machine.
 
         Example: ``mesh.displace(by=choice.Noise(scale=0.5, seed=7), distance=0.1)``
 
@@ -5150,9 +5152,9 @@ class MeshOperations:
 
         The parameters ``from_`` and ``to`` are coordinates along the axis. Vertices at or below ``from_`` do not move.
         Between ``from_`` and ``to``, the axis becomes an arc of the same length. The direction of the arc turns by
-        ``angle`` from one end to the other. The part above ``to`` moves rigidly with the end of the arc. Vertices
-        between the axis and the center of the circle move closer together, and vertices on the other side of the axis
-        move apart. The distance between the center of the circle and the axis is (to - from) / angle, with the angle in
+        ``angle`` from one end to the other. The part above ``to`` moves rigidly with the end of the arc. On the side of
+        the axis towards the center of the circle, vertices move closer together. On the other side, vertices move
+        apart. The distance between the center of the circle and the axis is (to - from) / angle, with the angle in
         radians. Parts of the mesh that lie beyond the center of the circle, as seen from the axis, turn inside out.
         Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
@@ -5167,16 +5169,16 @@ class MeshOperations:
             ``"Z"``: The z axis.
         :param angle: The angle by which the axis turns from ``from_`` to ``to``, in degrees. A negative angle bends to
             the other side.
-        :param towards: The coordinate axis in whose positive direction the upper end bends. If omitted, the axis after
-            ``axis`` in the order x, y, z, x.
+        :param towards: The upper end bends in the positive direction of this coordinate axis. If omitted, this is the
+            axis after ``axis`` in the order x, y, z, x.
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh along the axis.
-        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh along the axis. Must not be less than ``from_``.
+        :param to: The coordinate along the axis at which the deformation reaches its full amount. If omitted, the
+            highest coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
@@ -5199,10 +5201,10 @@ class MeshOperations:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
         Along the axis, the angle grows linearly from 0 at the coordinate ``from_`` to ``angle`` at the coordinate
-        ``to``. Vertices below ``from_`` do not move, and vertices above ``to`` rotate by ``angle``. A twist of a smooth
-        surface would keep the volume exactly. The volume of a mesh changes slightly, because its edges stay straight,
-        but the change is small if the mesh is fine. A second twist with the opposite angle and the same other
-        parameters undoes the first twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        ``to``. Vertices below ``from_`` do not move, and vertices above ``to`` rotate by ``angle``. An exact twist
+        keeps the volume. The edges of a mesh stay straight, so the volume of the mesh changes slightly. The change is
+        small if the mesh is fine. A second twist with the opposite angle and the same other parameters undoes the first
+        twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -5217,8 +5219,8 @@ class MeshOperations:
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh along the axis.
-        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh along the axis. Must not be less than ``from_``.
+        :param to: The coordinate along the axis at which the deformation reaches its full amount. If omitted, the
+            highest coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
@@ -5258,8 +5260,8 @@ class MeshOperations:
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh along the axis.
-        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh along the axis. Must not be less than ``from_``.
+        :param to: The coordinate along the axis at which the deformation reaches its full amount. If omitted, the
+            highest coordinate of the mesh along the axis. Must not be less than ``from_``.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
@@ -5281,12 +5283,12 @@ class MeshOperations:
         """Deforms vertices with a box of control points.
 
         The box contains a regular grid of control points. ``size`` gives the number of control points along x, y and z.
-        ``moves`` moves some of the control points, and the space in the box is deformed smoothly. The new position of a
-        point in the box is the weighted sum of the new positions of all control points, with Bernstein polynomials as
-        weights (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move
-        by the same offset, the whole box moves by this offset. If only one control point moves, the points in the box
-        move in the same direction, but less far. If this control point is at a corner of the box, the point of the box
-        at the same corner moves exactly as far as the control point.
+        ``moves`` gives offsets for some of the control points. The space in the box follows the moved points smoothly.
+        The new position of a point in the box is a weighted sum of the new positions of all control points. The weights
+        are Bernstein polynomials (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all
+        control points move by the same offset, the whole box moves by this offset. If only one control point moves, the
+        points in the box move in the same direction, but less far. However, if the control point is at a corner of the
+        box, this corner moves exactly as far as the control point.
 
         Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
         do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
@@ -5295,9 +5297,9 @@ class MeshOperations:
         Example: ``mesh.lattice(size=(3, 3, 3), moves=[((2, 2, 2), (0.5, 0.5, 0.5))])``
 
         :param size: The numbers of control points along x, y and z. Each number is from 2 to 16.
-        :param moves: The control points that move. Each entry consists of the indices of a control point along x, y and
-            z, which start at 0, and its offset in scene units. A control point that is listed several times moves by
-            the sum of its offsets.
+        :param moves: The control points that move. Each entry consists of the three indices of a control point (along
+            x, y and z, counted from 0) and the offset of this point in scene units. A control point that is listed
+            several times moves by the sum of its offsets.
         :param min: The corner of the box with the lowest coordinates. If omitted, the same corner of the bounding box
             of the mesh is used.
         :param max: The corner of the box with the highest coordinates. If omitted, the same corner of the bounding box
@@ -5322,15 +5324,15 @@ class MeshOperations:
     ) -> Self:
         """Moves vertices onto the surface of another mesh (shrinkwrap).
 
-        Only vertices in ``vertices`` that are not in ``pin`` move. All other vertices keep their exact positions. If
-        the operation does not name objects with ``on``, it acts on all meshes except the object that ``onto`` names.
+        A vertex moves only if it is in ``vertices`` and not in ``pin``. All other vertices keep their exact positions.
+        If the operation does not name objects with ``on``, it acts on all meshes except the object that ``onto`` names.
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface.
 
         Vertices that would move farther than ``distance`` do not move. With ``along="Normal"``, a vertex moves along
-        the line of its normal, and with ``along=choice.Direction(..)``, along a ray in this direction. If this line or
-        ray misses the surface, the vertex does not move. The report counts the vertices that would move too far, and
-        the vertices whose line or ray misses the surface.
+        the line of its normal. With ``along=choice.Direction(..)``, a vertex moves along a ray in this direction. If
+        the line or ray of a vertex misses the surface, the vertex does not move. The report counts the vertices that
+        would move too far, and the vertices whose line or ray misses the surface.
 
         Example: ``mesh.project(onto=scan, distance=0.1)``
 
@@ -5363,40 +5365,37 @@ class MeshOperations:
     ) -> Self:
         """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
-        Later operations can select elements by the attribute (``sel.Where``), move vertices by it (``displace()``),
-        show it in a picture (``picture()``), and save it to files (``save()``). If a later operation changes the mesh,
-        the quantity is not computed again. Positions and other attributes do not change. Quantities are computed from
-        the coordinates that the mesh stores. The transforms of the nodes that place the mesh in the scene are not
-        applied. For each object, the report states the lowest, the mean and the highest value.
+        Later operations can use the attribute to select elements (``sel.Where``) or to move vertices (``displace()``).
+        They can also show it in a picture (``picture()``) or save it to a file (``save()``). If a later operation
+        changes the mesh, the quantity is not computed again. Positions and other attributes do not change. Quantities
+        are computed from the coordinates that the mesh stores. The transforms of the nodes that place the mesh in the
+        scene are not applied. For each object, the report states the lowest, the mean and the highest value.
 
         If the mesh already has an attribute of this name, the attribute is replaced. The operation fails if the
-        existing attribute belongs to a different kind of element, or does not hold one floating-point number for each
+        existing attribute belongs to a different kind of element, or does not have one floating-point number per
         element.
 
         Example: ``mesh.measure(of="MeanCurvature")``
 
         :param of: The quantity.
-            ``"MeanCurvature"``: The mean curvature at each vertex, in 1 / scene unit: 1 / r on a sphere of radius r, 1
-                / (2 r) on a cylinder, and negative where the surface is concave (Cohen-Steiner, Morvan, 2003).
-            ``"GaussianCurvature"``: The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided
-                by the area of the vertex (Meyer, Desbrun, Schröder, Barr, 2003).
+            ``"MeanCurvature"``: The mean curvature at each vertex, in 1 / scene unit (Cohen-Steiner, Morvan, 2003).
+            ``"GaussianCurvature"``: The Gaussian curvature at each vertex, in 1 / scene unit² (Meyer, Desbrun,
+                Schröder, Barr, 2003).
             ``choice.PrincipalCurvature(..)``: A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of
                 the curvature tensor of Cohen-Steiner and Morvan, 2003.
             ``"Area"``: The area of each face, in scene units².
             ``"VertexArea"``: The area of the surface that belongs to each vertex, in scene units².
             ``"MinAngle"``: The smallest angle of each face, in degrees.
-            ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, and more than 1 for all other
-                polygons (Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
+            ``"AspectRatio"``: The aspect ratio of each face (Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict
+                Geometric Quality Library", 2007).
             ``choice.Distance(..)``: The distance from each vertex to the nearest point of another mesh of the scene, in
                 scene units.
             ``choice.Geodesic(..)``: The distance along the surface from each vertex to the nearest selected vertex, in
-                scene units, by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane,
-                2020).
+                scene units.
             ``"Thickness"``: The thickness of the solid at each vertex, in scene units.
             ``choice.Occlusion(..)``: The ambient occlusion of each vertex.
-            ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
-                outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
-                2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
+            ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex (Jacobson, Kavan,
+                Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
         :param name: The name of the attribute. If omitted, the attribute gets the name of the quantity in lower case,
             for example ``mean_curvature`` for ``MeanCurvature``. For principal curvatures, the default names are
             ``largest_curvature`` and ``smallest_curvature``.
@@ -5432,15 +5431,16 @@ class MeshOperations:
         if its angles are distorted too much. This distortion turns a small circle on the surface into an ellipse in the
         texture. On at least 95 % of the area of a chart, the longer axis of this ellipse is at most 1.15 times the
         shorter axis. All charts of a mesh have the same scale, and no chart is mirrored. No polygon is divided between
-        charts. Each mesh gets its own page, on which the charts are arranged as by ``pack_uvs()``.
+        charts. Each mesh gets its own page. The charts are arranged on the page in the same way as by ``pack_uvs()``.
 
         The coordinates are written to the corner attribute that the parameter ``uv`` names. If this attribute already
         exists, it is replaced. Edges at which charts meet become seams of the texture coordinates. Positions, faces and
         other attributes do not change, but tangents are removed because they depend on the texture coordinates.
         Zero-area faces also have zero area in the texture. The report counts the faces with zero area in the texture.
         If a polygon is bent so far that it overlaps itself in the texture, the operation fails and gives the reason
-        ``WrongPlace``. To avoid this failure, triangulate such polygons before this operation. With
-        ``on_refusal="Skip"``, the operation does not fail, and the triangles of such a polygon overlap in the texture.
+        ``WrongPlace``. To avoid this failure, triangulate the bent polygons before this operation. With
+        ``on_refusal="Skip"``, the operation does not fail, and the triangles of the bent polygons overlap in the
+        texture.
 
         Example: ``mesh.unwrap(max_angle=60)``
 
@@ -5449,9 +5449,9 @@ class MeshOperations:
             chooses all borders. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to ``70.0``.
-        :param max_stretch: The largest factor by which the area scale of a triangle is allowed to be larger or smaller
-            than the area scale of its whole chart. The area scale is the area in the texture divided by the area on the
-            surface. Defaults to ``4.0``.
+        :param max_stretch: The area scale of a triangle is allowed to differ from the area scale of its whole chart by
+            at most this factor. The area scale is the area in the texture divided by the area on the surface. Defaults
+            to ``4.0``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for every size.
             The size matters only for ``padding``, which is a number of texels. Defaults to ``1024``.
         :param padding: The width of the empty border around each chart, in texels. The distance between two charts is
@@ -5539,8 +5539,8 @@ class MeshOperations:
             more views are placed in rows of 4.
         :param style: The style: shading, lines, background.
             ``"shading"``: The lighting of surfaces.
-            ``"sharp"``: The smallest angle between the normals of two faces at which the edge between the faces is
-                shaded as sharp, in degrees. This angle has no effect if the mesh stores normals.
+            ``"sharp"``: An edge is shaded as sharp if the normals of its two faces differ by at least this angle, in
+                degrees. This angle has no effect if the mesh stores normals or smoothing groups.
             ``"occlusion"``: The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
             ``"background"``: The background.
             ``"color"``: The color of all surfaces. If omitted, surfaces have the colors of the scene.
@@ -5567,8 +5567,8 @@ class MeshOperations:
         :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
-            ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults are those
-                of ``highlight_width``.
+            ``"width"``: The width of edges and the diameter of vertices, in pixels. The defaults are the same as for
+                ``highlight_width``.
         :param color_by: What the colors of the surface show: a quantity (``"Valence"``, ``"MinAngle"``, ``"Area"``,
             ``"DihedralAngle"``, ``"MeanCurvature"``, ``"GaussianCurvature"``, or a value of ``meshwright.choice``), the
             name of an attribute, or a mapping with more details.
@@ -5622,15 +5622,16 @@ class MeshOperations:
             empty, only the curves and their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
             Defaults to ``False``.
-        :param before: The name of a curve that is the earlier state of the drawn curves. The earlier curve is drawn
-            faintly behind each drawn curve. Arrows lead from the old positions of control points to their new
-            positions.
+        :param before: The name of another curve, such as an older version of the drawn curve. The older curve is drawn
+            faintly behind each drawn curve. If both curves have the same degree, arrows lead from the old to the new
+            positions of the control points that have moved clearly.
         :param width: The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19
             pixels in wide panels. Defaults to ``640``.
-        :param columns: The number of panels in each row. If omitted, each row has one panel for each value of ``t``
-            (with ``by_level``, for each level of the curve), but at most 4 panels.
-        :param scale: The width and height of one SVG pixel, in pixels of a ``.png`` file. Has no effect on ``.svg``
-            files. Defaults to ``2``.
+        :param columns: The number of panels in each row. If omitted, each row has one panel for each value of ``t``,
+            but at most 4 panels. With ``by_level``, each row then has one panel for each level of the curve, but at
+            most 4 panels.
+        :param scale: In a ``.png`` file, each SVG pixel becomes a square of ``scale`` by ``scale`` pixels. Has no
+            effect on ``.svg`` files. Defaults to ``2``.
         :param labels: Whether points are labeled with their names. Defaults to ``True``.
         :param legend: Whether there is a legend below the panels. Defaults to ``True``.
         :param id, progress: See :class:`Mesh`.
@@ -5653,9 +5654,9 @@ class MeshOperations:
         Each half-edge is drawn as an arrow beside its edge and inside its face, and is labeled with its name. A thin
         curve leads from the head of the arrow to the next half-edge of the face. The twin of a half-edge is on the
         other side of the edge. At a boundary edge, the half-edge without a face is also drawn, in gray. The viewer
-        looks at the faces from the direction of their mean normal. Faces that face away from the viewer or are seen
-        nearly edge-on are left out, and the report counts them. The extension of the file determines the format:
-        ``.svg`` or ``.png``. The scene does not change.
+        looks at the faces from the direction of their mean normal. A face is left out if its normal points away from
+        the viewer, or if it is seen nearly edge-on. The report counts these faces. The extension of the file determines
+        the format: ``.svg`` or ``.png``. The scene does not change.
 
         The name of an element is a letter followed by the id of the element: ``v`` for vertices, ``h`` for half-edges,
         ``f`` for faces. The half-edges with the ids ``2e`` and ``2e + 1`` belong to the edge with the id ``e``.
@@ -5689,8 +5690,8 @@ class MeshOperations:
 
         A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
         borders of charts, and thin lines are the other edges. Charts outside the page are also drawn. To make room for
-        these charts, the figure becomes higher or its scale becomes smaller. The extension of the file determines the
-        format: ``.svg`` or ``.png``. The scene does not change.
+        these charts, the figure is made higher, or everything in it is drawn smaller. The extension of the file
+        determines the format: ``.svg`` or ``.png``. The scene does not change.
 
         Example: ``mesh.uv_picture(path="uv.svg")``
 

@@ -49,7 +49,7 @@ def Attribute(*, name: str | Arg | Ron, component: int | Arg | Ron | None = None
       elements have an attribute of this name, the first kind in this order is used: vertices, faces, corners, edges.
 
     :param name: The name of the attribute.
-    :param component: The index of the component of a vector, which starts at 0. If omitted, the length of the vector is
+    :param component: The index of the component of a vector, counted from 0. If omitted, the length of the vector is
         used.
     """
     return Choice('Attribute', name=name, component=component)
@@ -94,8 +94,8 @@ def Distance(
     - In ``move_vertices(by=..)``, as ``choice.Distance(value)``: Moves each vertex by this distance along its normal,
       in scene units. A negative distance moves vertices inwards.
     - In ``measure(of=..)``, as ``choice.Distance(to=.., signed=..)``: The distance from each vertex to the nearest
-      point of another mesh, in scene units. If the operation does not name objects with ``on``, it measures from all
-      meshes except the other mesh itself.
+      point of another mesh, in scene units. An operation without ``on`` computes the distances for all meshes except
+      the other mesh itself.
 
     :param to: The mesh to which distances are measured. For a scene or a recipe, the name of its object.
     :param signed: Whether distances are negative inside the other mesh, that is, where its winding number is more than
@@ -162,18 +162,18 @@ def Fit(
         ``choice.Perspective(..)``: Perspective projection, as in a photograph.
     :param margin: The empty margin at each border of the picture, as a fraction of the width (left and right) or height
         (top and bottom). Defaults to ``0.05``.
-    :param steady: Whether the scale is the same from every direction. An animation in which the camera turns around the
-        scene needs this. Defaults to ``False``.
+    :param steady: Whether the scale is the same from every direction. Set this for an animation in which the camera
+        turns around the scene. Defaults to ``False``.
     """
     return Choice('Fit', from_=from_, up=up, projection=projection, margin=margin, steady=steady)
 
 
 
 def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron) -> Choice:
-    """The distance along the surface from each vertex to the nearest selected vertex, in scene units, by the heat
-    method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020).
+    """The distance along the surface from each vertex to the nearest selected vertex, in scene units.
 
-    On fine meshes of smooth surfaces, the mean error is below 1 % of the largest distance. If no path of edges joins a
+    It is computed by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020). On
+    fine meshes of smooth surfaces, the mean error is below 1 % of the largest distance. If no path of edges joins a
     vertex to a selected vertex, the distance of this vertex is not defined.
 
     For ``measure(of=..)``.
@@ -197,7 +197,7 @@ def Image(*, path: str | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice
 
     :param path: The PNG or JPEG file. A relative path is relative to the working directory; in a recipe, to the folder
         of the recipe.
-    :param uv: The name of the texture coordinates. Defaults to ``uv``.
+    :param uv: The name of the attribute that holds the texture coordinates. Defaults to ``uv``.
     """
     return Choice('Image', path=path, uv=uv)
 
@@ -206,8 +206,8 @@ def Image(*, path: str | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice
 def Implicit(*, time: float | Arg | Ron) -> Choice:
     """Moves the surface by mean curvature flow.
 
-    Each pass is one stable time step of the given length. Details smaller than the square root of the time disappear,
-    regardless of how dense the vertices are.
+    Each pass is one time step of length ``time``, and is stable for any length. Details smaller than the square root of
+    the time disappear, regardless of how dense the vertices are.
 
     For ``smooth(by=..)``.
 
@@ -267,8 +267,8 @@ def LookAt(
         ``"Y"``: The y axis, as in glTF.
         ``"Z"``: The z axis, as in most CAD programs.
         ``"Auto"``: The z axis if the scene stands on the plane z = 0 but not on the plane y = 0; else the y axis.
-    :param projection: The projection. With ``Orthographic``, the picture has the scale that a perspective picture with
-        a field of view of 30 degrees has at the point ``to``.
+    :param projection: The projection. With ``Orthographic``, the scale is the same as the scale at the point ``to`` in
+        a perspective picture with a field of view of 30 degrees.
         ``"Orthographic"``: Parallel projection: the size of an object does not depend on its distance.
         ``choice.Perspective(..)``: Perspective projection, as in a photograph.
     """
@@ -446,11 +446,11 @@ def To(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
 
 
 def Winding(*, of: Mesh | str | Arg | Ron) -> Choice:
-    """The winding number of another mesh around each vertex: 1 inside, 0 outside, and numbers between 0 and 1 near gaps
-    of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
+    """The winding number of another mesh around each vertex (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson,
+    Schmidt, Levin, Jacobson, 2018).
 
-    The error is usually below 0.001. If the operation does not name objects with ``on``, it measures at the vertices of
-    all meshes except the other mesh itself.
+    It is 1 inside, 0 outside, and between 0 and 1 near gaps of the other mesh. The error is usually below 0.001. An
+    operation without ``on`` computes the winding numbers for all meshes except the other mesh itself.
 
     For ``measure(of=..)``.
 

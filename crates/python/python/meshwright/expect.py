@@ -58,8 +58,8 @@ def Attribute(
     Every mesh must have the attribute. Fails if no element has a value.
 
     :param name: The name of the attribute.
-    :param of: Which elements. If omitted, all elements of one kind: the first kind in the order vertices, faces,
-        corners, edges that has an attribute of this name. ``"All"``, ``"Boundary"``, ``"Isolated"``,
+    :param of: Which elements. If omitted, all elements of one kind. If several kinds have an attribute of this name,
+        the first of vertices, faces, corners and edges is used. ``"All"``, ``"Boundary"``, ``"Isolated"``,
         ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
     :param component: The index of the component of a vector, starting at 0. Required for vectors.
     :param min: Every value is at least this number.
@@ -169,7 +169,7 @@ def DihedralAngle(
     :param of: Which edges. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
     :param min: The smallest angle is at least this value.
     :param max: The largest angle is at most this value.
-    :param reaches: At least one angle has this value or a larger value.
+    :param reaches: The largest angle is at least this value.
     """
     return Choice('DihedralAngle', of=of, min=min, max=max, reaches=reaches)
 
@@ -391,11 +391,11 @@ def Objects(
 
 
 def Output(*, path: str | Arg | Ron, as_: str | Arg | Ron, tolerance: int | Arg | Ron | None = None) -> Choice:
-    """A file that an operation writes equals a reference file, which ``meshwright test --update`` creates and updates.
+    """A file that an operation writes is equal to a reference file.
 
-    Pictures (.png, .apng) are compared pixel by pixel. Mesh files are compared by the objects that are read from them,
-    and all other files byte by byte. Differences in the recorded provenance, which says how the file was made, are
-    ignored.
+    ``meshwright test --update`` creates and updates the reference file. Pictures (.png, .apng) are compared pixel by
+    pixel. Mesh files are compared by the objects that are read from them, and all other files byte by byte. Differences
+    in the recorded provenance, which says how the file was made, are ignored.
 
     :param path: The path of the written file, relative to the output folder, as in the operation that writes the file.
     :param as_: The path of the reference file, relative to the recipe's folder. The file must be inside this folder.
@@ -499,8 +499,8 @@ def SymmetricUnder(
     :param eq: Exactly this number of motions, including the identity.
     :param min: At least this number of motions.
     :param max: At most this number of motions.
-    :param tolerance: The allowed distance between the image of a vertex under a motion and the vertex with which the
-        image is matched. Defaults to ``1e-09``.
+    :param tolerance: The allowed distance between a moved vertex and the vertex that it must match. Defaults to
+        ``1e-09``.
     :param connectivity: Whether each motion must also map every face onto a face. Defaults to ``True``.
     """
     return Choice('SymmetricUnder', group=group, eq=eq, min=min, max=max, tolerance=tolerance, connectivity=connectivity)
@@ -534,7 +534,7 @@ def UvOverlap(
     min: int | Arg | Ron | None = None,
     max: int | Arg | Ron | None = None,
 ) -> Choice:
-    """The number of faces that overlap another face in the texture of the same mesh.
+    """The number of faces that overlap another face of the same mesh in the texture.
 
     Faces that only share corners or sides do not overlap. Fails if no mesh has the texture coordinates.
 

@@ -97,7 +97,7 @@ def Degree(value: int | Arg | Ron, /) -> Choice:
 def EdgeLoop(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
     """The given edges and all edge loops through them.
 
-    At an interior vertex with four edges, an edge loop continues with the opposite edge. At every other vertex, the
+    At an interior vertex with four edges, an edge loop continues with the opposite edge. At all other vertices, the
     loop ends. An edge loop that starts at a boundary edge follows the boundary instead.
     """
     return Choice('EdgeLoop', value)
@@ -169,9 +169,9 @@ def Expect(
     count: int | Arg | Ron,
     of: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron,
 ) -> Choice:
-    """The elements of the selection ``of``, which must have exactly ``count`` elements.
+    """The elements of the selection ``of``.
 
-    Otherwise the operation fails with the reason ``Expectation``.
+    The operation fails with the reason ``Expectation`` unless ``of`` has exactly ``count`` elements.
 
     :param count: The expected number of elements.
     :param of: The selection to count. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
@@ -218,8 +218,8 @@ def Facing(*, direction: Sequence[float] | NDArray[Any] | Arg | Ron, within: flo
 def Flat(*, below: float | Arg | Ron) -> Choice:
     """Edges at which the normals of the two faces differ by less than the angle ``below``.
 
-    :param below: The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
-        no angle and are never flat.
+    :param below: The upper limit of the angle between the normals, in degrees, from 0 (flat) to 180. Boundary edges
+        have no angle and are never flat.
     """
     return Choice('Flat', below=below)
 
@@ -399,8 +399,8 @@ at the same position count as the same vertex.
 def Sharp(*, above: float | Arg | Ron) -> Choice:
     """Edges at which the normals of the two faces differ by more than the angle ``above``.
 
-    :param above: The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
-        no angle and are never sharp.
+    :param above: The lower limit of the angle between the normals, in degrees, from 0 (flat) to 180. Boundary edges
+        have no angle and are never sharp.
     """
     return Choice('Sharp', above=above)
 

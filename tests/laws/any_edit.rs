@@ -42,7 +42,7 @@ impl EditCode {
     }
 }
 
-/// The last kind that is an edit of single elements. Kinds with higher numbers change the whole surface.
+/// The highest kind of an edit that changes single elements. Edits of higher kinds change or measure the whole surface.
 pub(crate) const LAST_LOCAL: u8 = 26;
 
 const SPLIT: u8 = 1;
@@ -128,7 +128,8 @@ pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
     }
 }
 
-/// Changes a dense mesh as a whole. Algorithms for triangles change nothing if a face is not a triangle.
+/// Applies an edit that changes or measures the whole surface of a dense mesh. Algorithms for triangles change nothing
+/// if a face is not a triangle.
 fn change_surface(mesh: &mut Mesh, code: EditCode) {
     let EditCode { kind, a, b, place } = code;
     let vertices: Vec<VertexId> = mesh.vertices().collect();
@@ -232,7 +233,7 @@ fn change_surface(mesh: &mut Mesh, code: EditCode) {
     }
 }
 
-/// Changes a dense mesh as a whole, by the kinds of edits from 33 on.
+/// Applies an edit of kind 33 or higher to a dense mesh. These edits change or measure the whole surface.
 fn change_surface_further(mesh: &mut Mesh, code: EditCode) {
     let EditCode { kind, a, b, place } = code;
     let t = f64::from(place) / 4.0;

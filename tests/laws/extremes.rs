@@ -133,8 +133,8 @@ fn extreme_numbers_give_valid_results_or_errors() {
     let mut failed = Vec::new();
     for (entry, sample) in samples(&registry) {
         let can_be_read = |text: &str| entry.deserialize(&ron_tree::parse(text).value).is_ok();
-        // Each variant is tested on the first scene and on one other scene. The other scene changes from variant to
-        // variant.
+        // Each variant is tested on two scenes: the first scene and one other scene. The variants use the other scenes
+        // in turn.
         let others = scenes[1..].iter().cycle();
         for (text, other) in extreme_variants(sample, can_be_read).iter().zip(others) {
             for (name, scene) in [&scenes[0], other] {

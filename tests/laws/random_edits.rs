@@ -9,7 +9,8 @@ use proptest::prelude::*;
 
 use crate::fixtures;
 
-/// An edit with a number from which the id of its element is computed. The id can be beyond the last element.
+/// A random edit. The first number of a variant determines the id of the element to edit. This id can be higher than
+/// the ids of all elements.
 #[derive(Clone, Copy, Debug)]
 enum Edit {
     Flip(usize),

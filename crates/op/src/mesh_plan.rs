@@ -68,7 +68,8 @@ impl MeshPlan {
         }
     }
 
-    /// Creates the exact plan of an existing mesh. The materials are unknown.
+    /// Creates the plan of an existing mesh, with the exact numbers of vertices, edges and faces. The materials are
+    /// unknown.
     pub fn of(mesh: &mesh::Mesh) -> Self {
         let degrees = mesh.faces().map(|f| mesh.degree(f) as u64);
         let degrees = degrees

@@ -32,8 +32,8 @@ pub enum Camera {
         #[serde(default = "margin")]
         #[schemars(range(min = 0.0, max = 0.45))]
         margin: f64,
-        /// Whether the scale is the same from every direction. Set this for an animation in which the camera turns
-        /// around the scene.
+        /// Whether the picture has the same scale for every direction of the camera. Set this for an animation in which
+        /// the camera turns around the scene.
         #[serde(default)]
         steady: bool,
     },
@@ -67,9 +67,9 @@ impl Default for Camera {
 
 impl Camera {
     /// Returns the camera rotated about the upward axis through the point that the camera looks at. A positive angle
-    /// moves the camera to the right. A [`Self::Fit`] camera also becomes [steady](Self::Fit::steady): its scale is the
-    /// same from every direction. `points` are the points of the scene, which determine the upward axis if it is
-    /// [`Up::Auto`].
+    /// moves the camera to the right. A [`Self::Fit`] camera also becomes [steady](Self::Fit::steady): its pictures
+    /// then have the same scale for every direction. `points` are the points of the scene, which determine the upward
+    /// axis if it is [`Up::Auto`].
     #[must_use]
     pub fn turned(mut self, degrees: f64, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
         match &mut self {

@@ -23,15 +23,15 @@
 //! (h itself runs from left to right, from a to b, in the middle of face F + e.)
 //!
 //! Let h be the outgoing boundary half-edge of a boundary vertex. The half-edge join(h), from p(h) to q(prev(h)),
-//! closes the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h). The
-//! edges of the half-edges join(h) come after all other edges, in order of h.
+//! closes the face that replaces the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and
+//! along(h). The edges of the half-edges join(h) come after all other edges, in order of h.
 //!
-//! Face f keeps its id, and edge e becomes face F + e (F is the number of old faces). The faces of vertices follow in
-//! order of the vertices. Isolated vertices have no faces. They are kept, and the ids of isolated vertices come after
-//! the ids of all other vertices. An inner vertex of valence 2 also has no face, because the face would have two
-//! corners. The two outgoing half-edges h and k of an inner vertex of valence 2 share one new edge. If h has a lower id
-//! than k, the first half-edge of the shared edge is across(h), and across(k) is the twin of across(h). So each inner
-//! vertex of valence 2 lowers the ids of all later edges by one.
+//! Face f keeps its id, and edge e becomes face F + e (F is the number of old faces). The faces that replace vertices
+//! have the highest ids, in the order of the old vertices. Isolated vertices do not become faces. They are kept, and
+//! their ids come after the ids of all other vertices. An inner vertex of valence 2 also does not become a face,
+//! because the face would have only two corners. The two outgoing half-edges h and k of an inner vertex of valence 2
+//! share one new edge. If h has a lower id than k, the first half-edge of the shared edge is across(h), and across(k)
+//! is the twin of across(h). So each inner vertex of valence 2 lowers the ids of all later edges by one.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

@@ -23,7 +23,8 @@ use mesh::{FaceId, HalfEdgeId, Mesh};
 
 use crate::parallel::any;
 
-/// A face with at most this number of corners is not large: each new corner in it sums all corners of the face again.
+/// A face is large if it has more corners than this number. In other faces, the sum over all corners is computed again
+/// for each Doo-Sabin point.
 const MAX_SMALL: usize = 64;
 
 /// Each large face has three sums, called m, c and s.

@@ -22,9 +22,9 @@ const HIDDEN_EDGES: f64 = 0.3;
 /// The opacity of hidden vertices, which are drawn as rings.
 const HIDDEN_VERTICES: f64 = 0.75;
 
-/// Converts a length in a picture whose shorter side has 960 pixels to a length in a picture of this size. If the
-/// picture is smaller, the length is proportional to the shorter side raised to `power`. If the picture is larger, the
-/// length is proportional to the shorter side, but at most 8 times the original length.
+/// Converts `length`, which is meant for a picture whose shorter side has 960 pixels, to a length for a picture of this
+/// size. If the shorter side has fewer than 960 pixels, the result is proportional to the shorter side raised to
+/// `power`. Otherwise, the result is proportional to the shorter side, but at most 8 times `length`.
 fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     let scale = f64::from(size[0].min(size[1])) / 960.0;
     if scale < 1.0 {

@@ -1,4 +1,4 @@
-//! Exports the edits of the player as an animation. One image is drawn in each frame of the window. A separate thread
+//! Exports the edits in the player as an animation. One image is drawn in each frame of the window. A separate thread
 //! encodes the images.
 
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ pub(crate) struct Drawing {
 }
 
 impl Parts {
-    /// Begins to export the edits that are played.
+    /// Starts the export of an animation that shows the edits in the player.
     pub(crate) fn export(&mut self, path: &Path, is_gif: bool) {
         let Some(player) = &mut self.player else {
             return;

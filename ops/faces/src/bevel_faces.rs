@@ -27,8 +27,8 @@ use op::prelude::*;
 pub struct BevelFaces {
     /// The faces to bevel.
     pub faces: FaceSelection,
-    /// The position of each corner of the inner face on the line from the old corner to the center of the face. More
-    /// than 0 (the old corner) and less than 1 (the center).
+    /// The position of the new corners between the old corners (0) and the center of the face (1), before the inner
+    /// face is raised. Must be more than 0 and less than 1.
     #[serde(alias = "inset")]
     #[schemars(extend("aliases" = ["inset"]))]
     pub fraction: Fraction,

@@ -30,8 +30,8 @@ use op::prelude::*;
 pub struct InsetFaces {
     /// The faces to inset.
     pub faces: FaceSelection,
-    /// The position of each corner of the inner face on the line from the old corner to the center of the face. More
-    /// than 0 (the old corner) and less than 1 (the center).
+    /// The position of the new corners between the old corners (0) and the center of the face (1). Must be more than 0
+    /// and less than 1.
     pub fraction: Fraction,
     /// What to do when a face cannot be inset.
     #[serde(default)]

@@ -63,7 +63,8 @@ impl MeshOperation for FillHoles {
     const WORDS: &'static [&'static str] = &["hole", "close", "cap", "repair"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // Only holes with at least three edges are filled, and no edge is on the boundary of two holes.
+        // A filled hole has at least three edges, and an edge belongs to at most one hole. So the number of filled
+        // holes is at most a third of the number of edges.
         match self.with {
             Cover::Face => {
                 let corners = self.max_edges.map_or(u64::MAX, |most| most.get().into());

@@ -44,8 +44,8 @@ pub struct CurveFigure {
     #[serde(default)]
     pub by_level: bool,
     /// The name of another curve, such as an older version of the drawn curve. The older curve is drawn faintly behind
-    /// each drawn curve. If both curves have the same degree, arrows lead from the old to the new positions of the
-    /// control points that have moved clearly.
+    /// each drawn curve. If both curves have the same degree, an arrow leads from the old to the new position of each
+    /// control point. Control points that have moved by at most 28 SVG pixels have no arrow.
     #[serde(default)]
     pub before: Option<String>,
     /// The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19 pixels in wide

@@ -197,8 +197,8 @@ impl Picture {
     /// the images of a turntable, and notes about parts of the scene that are not drawn.
     ///
     /// If the [`Extent`] `within` is given, [`Camera::Fit`] shows the region of this extent instead of only the drawn
-    /// scenes. Quantities are then colored with the color range of the extent. The images then have no legend, because
-    /// the caller draws one [common legend](Extent::legend) for all scenes.
+    /// scenes. If `color_by` has no range, the color range of `within` is used. The images have no legend, because the
+    /// caller draws one [common legend](Extent::legend) for all scenes.
     ///
     /// # Errors
     ///

@@ -36,7 +36,7 @@ use subdivision::{Boundary, Creasing, FaceVarying, Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Splits every face into quads and smooths the surface, for a number of levels.
+/// Splits every face into quads and smooths the surface. The step repeats this for every level.
 ///
 /// Each level creates one quad at each corner of each old face. A level turns V vertices, E edges and F faces with C
 /// corners in total into V + E + F vertices, 2 E + C edges and C quads. The Euler characteristic V - E + F does not

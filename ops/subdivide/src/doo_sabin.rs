@@ -35,7 +35,7 @@ use subdivision::{Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
+/// Replaces every edge and every vertex with a face and shrinks the old faces. The step repeats this for every level.
 ///
 /// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V +
 /// E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. The Euler

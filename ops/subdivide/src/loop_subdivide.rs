@@ -35,7 +35,7 @@ use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Splits every triangle into four and smooths the surface, for a number of levels.
+/// Splits every triangle into four and smooths the surface. The step repeats this for every level.
 ///
 /// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The Euler
 /// characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has the id V +

@@ -23,7 +23,7 @@ use subdivision::{Rules, Scheme, Split};
 
 use crate::step::{Step, Until};
 
-/// Splits every face into smaller faces without moving vertices, for a number of levels.
+/// Splits every face into smaller faces without moving vertices. The step repeats this for every level.
 ///
 /// With `into: Triangles`, all faces must be triangles. A level then turns V vertices, E edges and F triangles into V +
 /// E vertices, 2 E + 3 F edges and 4 F triangles. Triangle f becomes faces 4f to 4f + 3. With `into: Quads`, faces can

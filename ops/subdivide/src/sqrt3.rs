@@ -37,7 +37,8 @@ use subdivision::{Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
+/// Splits every triangle into three, flips the old edges, and smooths the surface. The step repeats this for every
+/// level.
 ///
 /// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every second
 /// level also cuts each boundary edge in three. For each boundary edge, the counts of vertices and edges are then

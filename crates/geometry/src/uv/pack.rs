@@ -42,8 +42,8 @@ const MIN_AREA: f64 = 1e-11;
 /// diagonal.
 const MIN_HEIGHT: f64 = 4e-6;
 
-/// A shape has many triangles if it has more than this number. Such a shape is replaced by its convex hull, unless the
-/// area of the hull is larger than the sum of the areas of the triangles.
+/// A shape with more triangles than this number is replaced by its convex hull, unless the area of the hull is larger
+/// than the sum of the areas of the triangles.
 const MAX_CONVEX: usize = 256;
 
 /// Two areas count as equal if their relative difference is at most this number.
@@ -58,9 +58,9 @@ struct Chart {
     scale: Option<f64>,
     /// The middle of the bounding box of the chart in the old texture.
     middle: DVec2,
-    /// The rotation of the chart before the packing, as a complex number. The crate `uvunwrap` compares two triangles
-    /// of a chart if their bounding boxes overlap. In a chart with thin, oblique triangles, the crate would compare
-    /// almost all pairs of triangles without this rotation.
+    /// The rotation of the chart before the packing, as a complex number. The rotation makes the bounding boxes of
+    /// thin, oblique triangles small. This saves time, because the crate `uvunwrap` compares two triangles of a chart
+    /// if their bounding boxes overlap.
     turn: DVec2,
     /// The area of the chart on the surface.
     area: f64,
@@ -277,11 +277,11 @@ impl Shape {
         (self.points.len() - 1) as u32
     }
 
-    /// Replaces the shape by its convex hull if the shape has many triangles and is convex or certainly overlaps
-    /// itself. The shape certainly overlaps itself if the sum of the areas of its triangles is larger than the area of
-    /// the hull. Returns whether the shape was replaced because it overlaps itself. The replacement saves time: the
-    /// crate `uvunwrap` compares two triangles if their bounding boxes overlap. In the triangulation of a face with
-    /// many corners, almost all pairs of bounding boxes can overlap.
+    /// Replaces the shape by its convex hull if two conditions hold: it has more than [`MAX_CONVEX`] triangles, and it
+    /// is convex or certainly overlaps itself. The shape certainly overlaps itself if the sum of the areas of its
+    /// triangles is larger than the area of the hull. Returns whether the shape was replaced because it overlaps
+    /// itself. The replacement saves time: the crate `uvunwrap` compares two triangles if their bounding boxes overlap.
+    /// In the triangulation of a face with many corners, almost all pairs of bounding boxes can overlap.
     fn simplify(&mut self) -> bool {
         if self.indices.len() / 3 <= MAX_CONVEX {
             return false;
@@ -305,10 +305,10 @@ impl Shape {
             .sum()
     }
 
-    /// Returns the convex hull of the shape (Andrew's monotone chain, 1979), and the area of the exact hull. The
-    /// returned hull is triangulated, and has no corners that change its shape by less than [`MIN_HEIGHT`] (Douglas,
-    /// Peucker, "Algorithms for the Reduction of the Number of Points Required to Represent a Digitized Line or its
-    /// Caricature", 1973).
+    /// Returns a simplified convex hull of the shape, as triangles, and the area of the convex hull before the
+    /// simplification. The convex hull is computed by Andrew's monotone chain algorithm (1979). The simplification
+    /// removes corners that change the hull only slightly, as [`MIN_HEIGHT`] specifies (Douglas, Peucker, "Algorithms
+    /// for the Reduction of the Number of Points Required to Represent a Digitized Line or its Caricature", 1973).
     fn hull(&self) -> (Self, f64) {
         let mut points = self.points.clone();
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));

@@ -73,7 +73,7 @@ impl<'a> Surface<'a> {
         is_joined.then(|| number(f.index()))
     }
 
-    /// Returns the half-edges of a face for which [`Self::across`] finds a face on the other side, each with that face.
+    /// Returns each face that [`Self::across`] finds across a half-edge of face `f`, together with this half-edge.
     pub(super) fn neighbors(&self, f: u32) -> impl Iterator<Item = (HalfEdgeId, u32)> + '_ {
         self.half_edges(f)
             .filter_map(|h| Some((h, self.across(h)?)))
@@ -127,7 +127,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Creates the part of a surface with the given faces. `faces` must be in ascending order.
+    /// Creates the part that consists of the given faces. `faces` must be in ascending order.
     pub(super) fn new(surface: &Surface, faces: Vec<u32>) -> Self {
         let mut corners = Vec::new();
         let mut starts = Vec::with_capacity(faces.len());

@@ -103,8 +103,8 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     }
     let vertex_of: Vec<AtomicU32> = mesh::zeroed(mesh.n_half_edges());
     let m = seams.len();
-    // Until all blocks are processed, `vertex_of` contains indices that start at 0 in each block. Later, the number of
-    // glTF vertices in earlier blocks is added.
+    // While the blocks are processed, the indices in `vertex_of` start at 0 in each block. Afterwards, the number of
+    // glTF vertices in all earlier blocks is added to each index.
     let blocks = parallel::blocks(n, |vertices| {
         let mut corners = Vec::with_capacity(BLOCK);
         let (mut values, mut own) = (Vec::new(), Vec::new());

@@ -229,9 +229,9 @@ impl Stream<'_> {
         self.target.is_none() && attribute_name(&self.semantic).as_deref() == Some(name)
     }
 
-    /// Returns the value that is written for a corner, and a flag. If glTF does not allow the value of the mesh, a
-    /// different value is written, and the flag is false. The value always has four components. The caller drops those
-    /// that the stream does not need.
+    /// Returns the value that is written for a corner, and whether glTF allows the value in the mesh. If glTF does not
+    /// allow it, a different value is written. The value always has four components. The caller drops those that the
+    /// stream does not need.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let value = value(self.domain, self.column, v, h);
         let [x, y, ..] = value;
@@ -288,7 +288,7 @@ fn tangent([x, y, z, w]: [f64; 4]) -> ([f32; 4], bool) {
 }
 
 /// Returns the direction (normal or tangent) of a morph target minus the direction `from` that is written for the mesh.
-/// If the direction of the target is zero or not finite, the difference is zero and the returned flag is false.
+/// If the direction of the morph target is zero or not finite, returns zero and false.
 fn delta(from: [f32; 4], [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
     let to = DVec3::new(x, y, z);
     if to == DVec3::ZERO || !to.is_finite() {
@@ -313,8 +313,8 @@ fn value(domain: Domain, column: &Column, v: VertexId, h: HalfEdgeId) -> [f64; 4
     }
 }
 
-/// Returns the normal that is written for a corner, and a flag. If the normal of the mesh has no direction, the normal
-/// of the face is written, and the flag is false.
+/// Returns the normal that is written for a corner, and whether the normal in the mesh can be normalized. If it cannot
+/// be normalized, the normal of the face is written instead.
 fn normal(mesh: &Mesh, h: HalfEdgeId, [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
     let unit = unit(DVec3::new(x, y, z));
     let normal = unit.unwrap_or_else(|| face_normal(mesh, mesh.face(h)));

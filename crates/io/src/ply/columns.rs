@@ -23,7 +23,7 @@ pub(super) enum Kind {
     Vec4,
 }
 
-/// Each kind of attribute, its name in comments, and the number of components of its values.
+/// Each attribute type, its name in the comments of a PLY file, and the number of components of a value.
 const KINDS: [(Kind, &str, usize); 6] = [
     (Kind::Tag, "tag", 1),
     (Kind::Int, "int", 1),
@@ -50,7 +50,7 @@ impl Kind {
         KINDS[self as usize].2
     }
 
-    /// The name of the kind in comments.
+    /// The name of this attribute type in the comments of a PLY file.
     pub(super) fn word(self) -> &'static str {
         KINDS[self as usize].1
     }

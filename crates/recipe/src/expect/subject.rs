@@ -328,8 +328,8 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Returns the elements of one object that a selection matches. A selection is refused, for example, if it names a
-/// missing edge. A refused selection violates the expectation, so `Not(..)` of the expectation holds.
+/// Returns the elements of one object that a selection matches. The selection can be refused, for example because it
+/// names a missing edge. In this case, the expectation does not hold, and the expectation `Not(..)` around it holds.
 pub(super) fn selected<S: Select>(
     selection: &S,
     object: &Object,

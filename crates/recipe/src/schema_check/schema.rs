@@ -13,7 +13,7 @@ pub(crate) struct Schema<'s> {
     layers: Vec<&'s Map<String, Json>>,
     /// The name of the Rust type, if it has one.
     name: Option<&'s str>,
-    /// Whether the schema is a reference: it is defined in `$defs`, and `$ref` refers to it.
+    /// Whether the schema is given by a reference (`$ref`) to a definition in `$defs`.
     is_reference: bool,
 }
 

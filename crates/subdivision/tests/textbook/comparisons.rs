@@ -68,7 +68,8 @@ fn levels_of(mesh: &Polygons) -> u32 {
     if mesh.faces.len() <= 12 { 3 } else { 2 }
 }
 
-/// Compares a smooth scheme on meshes with every boundary rule, creasing rule and sharpness pattern.
+/// Compares the crate with the textbook implementation for a smooth scheme. Tests every boundary rule, creasing rule
+/// and sharpness pattern on each mesh.
 fn compare_sharp(meshes: &[Named], scheme: Scheme) {
     let mut comparison = Comparison::default();
     let mut random = Random(3);
@@ -93,7 +94,7 @@ fn compare_sharp(meshes: &[Named], scheme: Scheme) {
     comparison.finish();
 }
 
-/// Compares a scheme without options.
+/// Compares the crate with the textbook implementation for a scheme without options.
 fn compare_plain(meshes: &[Named], scheme: Scheme) {
     let mut comparison = Comparison::default();
     for (name, mesh) in meshes {
@@ -104,7 +105,8 @@ fn compare_plain(meshes: &[Named], scheme: Scheme) {
     comparison.finish();
 }
 
-/// Compares corner values with every face-varying rule, on meshes with and without sharpness.
+/// Compares the crate with the textbook implementation on meshes with corner values. Tests every face-varying rule on
+/// each mesh, with and without sharp elements.
 fn compare_corner_values(meshes: &[Named], scheme: Scheme) {
     let mut comparison = Comparison::default();
     let mut random = Random(4);

@@ -326,7 +326,7 @@ impl Pattern {
         Self::Infinite,
     ];
 
-    /// Returns the mesh with random sharpness of this pattern.
+    /// Returns a copy of the mesh in which random edges and vertices are sharp, as the pattern `self` specifies.
     pub(crate) fn on(self, mesh: &Polygons, random: &mut Random) -> Polygons {
         let levels = [-1.0, 12.0, 0.3, 0.7, 1.0, 1.7, 2.0, 2.5, 3.2, 10.0];
         let (edges, vertices, choice): (f64, f64, &[f64]) = match self {
@@ -390,7 +390,7 @@ impl Islands {
         Self::Shattered,
     ];
 
-    /// Returns the mesh with random corner values of this pattern.
+    /// Returns a copy of the mesh with random corner values, which follow the pattern `self`.
     pub(crate) fn on(self, mesh: &Polygons, random: &mut Random) -> Polygons {
         let n = 4;
         let numbers: Vec<Vec<DVec2>> = (mesh.positions.iter())

@@ -56,9 +56,9 @@ pub(crate) fn behind(i: usize, n: usize) -> usize {
 #[derive(Debug)]
 pub(crate) struct Adjacency<'a> {
     faces: &'a [Vec<usize>],
-    /// The sides at each edge: the face, and the corner where the side starts.
+    /// For each edge, its sides. A side is given by its face and the index of the corner where it starts.
     pub(crate) sides: BTreeMap<Edge, Vec<(usize, usize)>>,
-    /// The corners at each vertex: the face, and the index of the corner.
+    /// For each vertex, its corners. A corner is given by its face and its index in the face.
     pub(crate) corners: Vec<Vec<(usize, usize)>>,
     /// The neighbors of each vertex.
     pub(crate) neighbors: Vec<BTreeSet<usize>>,

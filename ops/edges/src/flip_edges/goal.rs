@@ -171,9 +171,9 @@ impl Quad {
     }
 }
 
-/// Returns the sum of the cotangents of the angles of a triangle. The sum is infinite if the triangle has no area, and
-/// NaN if the triangle is too small or too large to compute. If the energy of a triangle is NaN, the flip is never an
-/// improvement.
+/// Returns the sum of the cotangents of the angles of a triangle. Returns NaN if the sum of the squared side lengths is
+/// outside [`SIZES`]. Otherwise, returns infinity for a zero-area triangle. If the energy of a new triangle is NaN, the
+/// flip is never an improvement.
 ///
 /// The corners are sorted by their ids, so that the bits of the result do not depend on the order of the corners.
 fn energy(mesh: &Mesh, mut corners: [VertexId; 3]) -> f64 {

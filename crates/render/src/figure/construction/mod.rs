@@ -52,7 +52,8 @@ pub const MAX_WIDTH: f64 = 8192.0;
 pub struct Panel<'a> {
     /// The curve.
     pub curve: &'a Curve<DVec2>,
-    /// An earlier state of the curve, drawn faintly behind it, with arrows to the control points that moved.
+    /// An earlier state of the curve. It is drawn faintly behind the curve, with arrows from its control points to
+    /// their new positions.
     pub before: Option<&'a Curve<DVec2>>,
     /// The parameter of the point, from 0 to 1. If `None`, only the curve and its control polygon are drawn.
     pub t: Option<f64>,

@@ -9,7 +9,7 @@ use std::hash::{BuildHasher, RandomState};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::DVec3;
-use mesh::{Attributes, Domain, Mesh, Values, VertexId};
+use mesh::{Attributes, Domain, Mesh, Values, VertexId, prefetch};
 use rayon::prelude::*;
 
 use crate::file_vertices::FileVertices;
@@ -21,6 +21,8 @@ const CHUNK: usize = 1 << 15;
 /// The approximate number of positions in a bucket.
 const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
+/// How many entries the prefetched position is ahead of the position that is looked up.
+const AHEAD: usize = 16;
 
 /// Counts the vertices that a reader of the written file would merge with an earlier vertex. Use this function only for
 /// formats whose reader merges vertices with equal positions. Vertices without a face are not counted, because they are
@@ -206,13 +208,14 @@ fn firsts(positions: &[DVec3]) -> Vec<u32> {
     });
     let first: Vec<AtomicU32> = mesh::zeroed(positions.len());
     parallel::map(buckets, |b| {
-        let parts = || {
-            let chunks = sorted.chunks(CHUNK).zip(&starts);
-            chunks.flat_map(|(chunk, starts)| &chunk[starts[b]..starts[b + 1]])
-        };
-        let n = starts.iter().map(|starts| starts[b + 1] - starts[b]).sum();
-        let mut table = Table::new(n);
-        for &entry in parts() {
+        let chunks = sorted.chunks(CHUNK).zip(&starts);
+        let entries = chunks.flat_map(|(chunk, starts)| &chunk[starts[b]..starts[b + 1]]);
+        let entries: Vec<u64> = entries.copied().collect();
+        let mut table = Table::new(entries.len());
+        for (i, &entry) in entries.iter().enumerate() {
+            if let Some(&later) = entries.get(i + AHEAD) {
+                prefetch(positions, low(later) as usize);
+            }
             first[low(entry) as usize].store(table.first(entry, positions), Relaxed);
         }
     });

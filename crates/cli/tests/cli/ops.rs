@@ -56,7 +56,7 @@ fn selections_are_described_separately() {
         // A description of several lines is printed completely.
         "At an interior\n",
         "vertex with four edges, an edge loop continues with the\n",
-        "opposite edge. At every other vertex, the loop ends. An edge\n",
+        "opposite edge. At all other vertices, the loop ends. An edge\n",
         "loop that starts at a boundary edge follows the boundary\n",
         "instead.\n",
         "VertexSelection: ",

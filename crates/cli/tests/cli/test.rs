@@ -97,7 +97,7 @@ fn recorded_values_are_updated_in_place() {
             "FAILED a.ron",
             "ok     b.ron",
         ])
-        .complains(&["expected at most 2 edges, found 12", "not a recorded value"]);
+        .complains(&["expected at most 2 edges, found 12", "only recorded values"]);
     let text = String::from_utf8(folder.read("a.ron")).unwrap();
     let digest = text
         .split("Digest(\"")

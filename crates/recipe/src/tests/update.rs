@@ -91,7 +91,7 @@ fn requirements_are_not_updated() {
         let update = updated(&text);
         assert_eq!((&update.text, update.changes.len()), (&text, 0), "{expect}");
         let help = update.left[0].help.as_deref().unwrap_or_default();
-        assert!(help.contains("not a recorded value"), "{expect}: {help}");
+        assert!(help.contains("only recorded values"), "{expect}: {help}");
     }
 }
 

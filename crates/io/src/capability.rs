@@ -41,7 +41,8 @@ impl Stored<'_> {
 
     /// Returns how much of an attribute the format stores. Only the type of `values` matters. If `values` is `None`,
     /// the name of the attribute usually determines the type: for example, `color` has four numbers. A name without a
-    /// known type can have any type. If the result then depends on the type, returns [`Storage::Partial`].
+    /// known type can have any type. If the format stores such an attribute differently for different types, returns
+    /// [`Storage::Partial`].
     pub fn storage(&self, domain: Domain, name: &str, values: Option<&Values>) -> Storage {
         let of_type = |values: &Values| self.storage_of(domain, name, values);
         if let Some(values) = values {
@@ -185,7 +186,7 @@ impl Format {
         )
     }
 
-    /// What happens to the names of objects when a writer of this format joins their meshes into one mesh.
+    /// What happens to the names of objects when a writer of this format joins the meshes of all objects into one mesh.
     pub(crate) const fn joined_names(self) -> Names {
         match self {
             Self::Ply => Names::Tags,

@@ -26,12 +26,12 @@ pub(crate) struct CornerNumbers {
 impl CornerNumbers {
     /// Assigns numbers to the values of corners. `equal` returns whether two corners of one vertex have the same value.
     /// A corner is compared only with the latest [`MAX_COMPARED`] distinct values at its vertex. This limit keeps the
-    /// time for a vertex with a million corners linear. If a vertex has more distinct values than this limit, a value
-    /// can get a second number.
+    /// total time linear in the number of corners, even if one vertex has a million corners. If a vertex has more
+    /// distinct values than this limit, a value can get a second number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
-        // Relaxed stores are sufficient, because only one task writes each entry. An entry of `same` is written by the
-        // task for the vertex at which the half-edge starts, and an entry of `numbers` by the task for the number that
-        // is stored there.
+        // Relaxed stores are sufficient, because only one task writes each entry. The entry of a half-edge in `same` is
+        // written by the task for its first vertex. An entry of `numbers` is written by the task for the number that is
+        // stored there.
         let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);

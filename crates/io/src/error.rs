@@ -169,8 +169,7 @@ impl From<StoreError> for WriteError {
     }
 }
 
-/// The reason why a format cannot store a scene. The value does not contain the name of the file. The name is added
-/// later.
+/// The reason why a format cannot store a scene. The value does not contain the name of the file, which is added later.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Unwritable {
     /// The object that the format cannot store. `None` if the reason does not concern a single object.

@@ -8,7 +8,7 @@ use mesh::{Column, Domain, Mesh, Values, VertexId};
 use scene::{Geometry, Object, Scene};
 
 /// The name of the vertex attribute that marks the copies of split vertices. The value at a copy is the index of the
-/// copy minus the index of the original. The value at an original is 0. Readers add this attribute if
+/// copy minus the index of the original. The value at an original vertex is 0. Readers add this attribute if
 /// [`ReadOptions::keep_vertices`](crate::ReadOptions::keep_vertices) is set.
 pub(crate) const COPY_DISTANCE: &str = "distance to the original vertex";
 

@@ -18,9 +18,9 @@ use crate::{NonManifold, Orientation, Policies, Polygons, ReadOptions};
 
 impl Polygons {
     /// Builds a mesh of these polygons, and returns it with the materials. A corner attribute becomes a vertex
-    /// attribute if the corners of each vertex have the same value, and no vertex attribute has the same name. Three
-    /// kinds of attributes always stay on the corners: tangents, texture coordinates, and the changes that morph
-    /// targets make to texture coordinates. Texture coordinates are the attributes whose names begin with `uv`.
+    /// attribute if, at each vertex, all corners have the same value, and the mesh has no vertex attribute of the same
+    /// name. Three kinds of attributes always stay on the corners: tangents, texture coordinates, and the changes that
+    /// morph targets make to texture coordinates. Texture coordinates are the attributes whose names begin with `uv`.
     ///
     /// # Errors
     ///
@@ -138,8 +138,8 @@ fn mark_copies(built: &mut BuildOutput, n_positions: usize) {
     built.mesh.insert_column(Domain::Vertex, column);
 }
 
-/// Each element of the mesh gets its attribute values from an element of the input polygons. For each element of the
-/// mesh, this struct stores the index of that input element.
+/// For each element of the mesh, the index of the input element (such as a corner of a polygon) from which its
+/// attribute values come.
 struct Sources {
     n_positions: usize,
     /// For each copy of a split vertex, the original vertex. Copies come after the original vertices.

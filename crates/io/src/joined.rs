@@ -22,7 +22,7 @@ pub(crate) struct Joined<'a> {
     pub(crate) losses: Vec<Loss>,
 }
 
-/// How a writer handles the names of objects when it joins their meshes.
+/// How a writer handles the names of objects when it joins the meshes of the objects.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Names {
     /// The names are lost.

@@ -178,7 +178,8 @@ pub struct WriteOptions {
     /// file of any other format fails.
     pub quantization: Option<Quantization>,
     /// For glTF, the maximum number of joint sets of a skinned mesh. In each set, a vertex has four joints. If `None`,
-    /// the maximum is the number of sets in the original file of the mesh, or 1 if the mesh was not read from a file.
+    /// the maximum is the number of sets in the original file of the mesh. For a mesh that was not read from a file, it
+    /// is 1.
     pub weight_sets: Option<u32>,
     /// The kind of elements of a `.csv` file. Each element has a row. If `None`, the rows list vertices. If this option
     /// is set, writing a file of any other format fails.

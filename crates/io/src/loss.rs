@@ -24,7 +24,8 @@ pub struct Loss {
     pub reason: String,
 }
 
-/// Usually, [`Loss::attribute`] is the name of an attribute if the loss has a domain. These values are the exceptions.
+/// If a loss has a domain, its [`Loss::attribute`] is usually the name of an attribute. These values are the
+/// exceptions.
 const NOT_ATTRIBUTES: [&str; 4] = ["influences", "joint weights", "morph targets", "polygon"];
 
 impl Loss {
@@ -85,9 +86,9 @@ impl fmt::Display for Loss {
     }
 }
 
-/// Returns the number of elements in this domain. An attribute has the same number of values. The array of a corner
-/// attribute has additional entries for boundary half-edges. These entries are not counted, because boundary half-edges
-/// are not corners.
+/// Returns the number of elements in this domain. An attribute of this domain has one value for each element. The array
+/// of a corner attribute has additional entries for boundary half-edges. These entries are not counted, because
+/// boundary half-edges are not corners.
 pub(crate) fn n_values(mesh: &Mesh, domain: Domain) -> usize {
     match domain {
         Domain::Corner => {

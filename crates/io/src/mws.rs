@@ -176,7 +176,7 @@ mod tests {
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
-            // A file with a changed bit can be refused. If it is decoded instead, its meshes must be valid.
+            // A file with a changed bit can be refused. If it is not refused, the decoded meshes must be valid.
             if let Ok(scene) = scene_of(&changed, None, Placements::Keep) {
                 for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
                     assert_eq!(mesh.defects(), [], "byte {i}");

@@ -51,7 +51,7 @@ pub(crate) struct PolygonArrays<'a> {
 }
 
 impl PolygonArrays<'_> {
-    /// Returns the positions of elements as [`Note::places`] stores them.
+    /// Returns the positions of `elements` in the form in which [`Note::places`] stores them.
     pub(crate) fn places(&self, elements: &Elements) -> Vec<Vec<DVec3>> {
         let at = |v: usize| self.positions.get(v).copied();
         let vertex = |v: VertexId| at(v.index());

@@ -111,9 +111,10 @@ impl PeekGeometry {
 
 /// The attributes and the element counts of a mesh, according to its file.
 ///
-/// Reading never gives more faces or corners than these counts. Reading can give more vertices, because non-manifold
-/// vertices and edges are split. Reading can also give fewer vertices, for example because a glTF file has a separate
-/// vertex for each side of a seam. [`ranges`](Self::ranges) returns the ranges of the possible element counts.
+/// Reading never gives more faces or corners than these counts. The mesh can have more vertices than counted here,
+/// because non-manifold vertices and edges are split. Reading can also give fewer vertices, for example because a glTF
+/// file has a separate vertex for each side of a seam. [`ranges`](Self::ranges) returns the ranges of the possible
+/// element counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(
     clippy::struct_excessive_bools,

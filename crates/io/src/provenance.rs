@@ -8,10 +8,10 @@ use store::Store;
 
 use crate::{Format, ReadError, gltf, gzip, mws};
 
-/// This number of bytes at the beginning of a file is searched for the provenance. In glTF files, the whole JSON is
-/// searched.
+/// The number of bytes at the beginning of a file that are searched for the provenance. In glTF files, the whole JSON
+/// is searched.
 const HEAD: u64 = 1 << 20;
-/// At most this number of decompressed bytes of a compressed glTF file is read.
+/// The maximum number of decompressed bytes that are read from a compressed glTF file.
 const MAX_DOCUMENT: u64 = 1 << 30;
 
 /// Reads the provenance of a file. Returns `None` if the file has no provenance, for example because its format cannot

@@ -79,8 +79,8 @@ impl Content<'_> {
     }
 }
 
-/// Writes the bytes that the blocks append, and returns the number of bytes. While one thread writes a group of blocks,
-/// the other threads produce the next group.
+/// Runs the blocks, writes the bytes that they append to `out`, and returns the number of bytes. While one thread
+/// writes a group of blocks, the other threads produce the next group.
 fn write_blocks(out: &mut (dyn Write + Send), blocks: &[Block]) -> io::Result<u64> {
     let in_group = 4 * rayon::current_num_threads();
     let mut ready: Vec<Vec<u8>> = Vec::new();

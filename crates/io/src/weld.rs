@@ -56,8 +56,8 @@ fn rounded_places(mesh: &Mesh, vertices: &[usize]) -> Vec<DVec3> {
     })
 }
 
-/// Like [`n_merged`], but for formats whose reader merges two vertices only if they have equal positions and `compare`
-/// returns `Equal`.
+/// Like [`n_merged`], but for formats whose reader also compares other values: it merges two vertices only if their
+/// positions are equal and `compare` returns `Equal`.
 pub(crate) fn n_merged_if_equal(
     mesh: &Mesh,
     compare: impl Fn(usize, usize) -> Ordering + Sync,

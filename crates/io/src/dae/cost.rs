@@ -5,8 +5,8 @@
 pub(super) const BUDGET_FACTOR: usize = 64;
 /// The smallest memory budget of a file, in bytes.
 pub(super) const MIN_BUDGET: usize = 1 << 24;
-/// The approximate size in bytes of an object without faces. The constants after this one are the sizes of a material,
-/// of the binding of a material, of a vertex, of a corner, and of an additional value of a corner.
+/// The approximate size in bytes of an object without faces. The next constants are the sizes of a material, a material
+/// binding, a vertex, a corner, and an additional value of a corner.
 pub(super) const OBJECT: usize = 1000;
 pub(super) const MATERIAL: usize = 1000;
 pub(super) const BOUND: usize = 50;

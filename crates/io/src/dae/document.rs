@@ -263,7 +263,7 @@ pub(super) fn is(node: Node, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name
 }
 
-/// Returns the index of an element in its file. The index is used as a key.
+/// Returns the index of an element in its file, for use as a key.
 pub(super) fn number_of(node: Node) -> u32 {
     node.id().get()
 }
@@ -284,7 +284,7 @@ pub(super) fn child<'a>(node: Node<'a>, name: &'static str) -> Option<Node<'a>> 
 }
 
 /// Follows a path of element names. The first name belongs to a child of `node`, and each further name belongs to a
-/// child of the previous element. Returns the last element.
+/// child of the previous element. Returns the element to which the last name belongs.
 pub(super) fn below<'a>(node: Node<'a>, names: &[&'static str]) -> Option<Node<'a>> {
     names.iter().try_fold(node, |node, name| child(node, name))
 }
@@ -314,7 +314,7 @@ pub(super) fn required<'a>(node: Node<'a>, key: &str) -> Result<&'a str, Fault> 
         .ok_or_else(|| error_at(node, format!("expected an attribute `{key}`, found none")))
 }
 
-/// The value of an attribute that is a non-negative integer; `None` if the attribute is missing.
+/// The value of an attribute as a non-negative integer; `None` if the attribute is missing.
 ///
 /// # Errors
 ///

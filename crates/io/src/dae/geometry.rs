@@ -25,7 +25,7 @@ pub(super) struct Surface<'a> {
     pub(super) polygons: Polygons,
     /// The material symbols of the polygons, in order of first occurrence.
     pub(super) symbols: Vec<&'a str>,
-    /// For each polygon, the index of its symbol, or -1 if the polygon has no symbol.
+    /// For each polygon, the index of its material symbol in `symbols`, or -1 if the polygon has no symbol.
     pub(super) symbol_of: Vec<i32>,
 }
 
@@ -58,7 +58,7 @@ enum Kind {
 
 struct Input<'a> {
     kind: Kind,
-    /// Each corner has several indices. This input uses the index at this position, counted from 0.
+    /// Each corner has several indices. This field is the position, counted from 0, of the index that this input uses.
     offset: usize,
     source: Node<'a>,
 }
@@ -227,7 +227,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
             add(input, vertex)?;
         }
         // The inputs of the `<vertices>` element are read again for each list of polygons that uses the element.
-        // Therefore, their cost is subtracted from the memory budget once for each list.
+        // Therefore, the cost of these inputs is subtracted from the memory budget once for each list.
         self.document.take(list, cost::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,

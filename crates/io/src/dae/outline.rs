@@ -41,7 +41,7 @@ pub(super) fn shape(list: Node, document: &Document) -> Result<Option<Shape>, Fa
     Ok(Some(shape))
 }
 
-/// The polygons of one list. Their corners refer to groups of indices.
+/// The polygons of one list. Each corner refers to a group of indices.
 #[derive(Default)]
 pub(super) struct Outline<'a> {
     /// The elements that contain the indices.

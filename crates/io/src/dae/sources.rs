@@ -35,10 +35,10 @@ impl Vectors {
     }
 }
 
-/// Reads the vectors of a source. If the accessor names a component for each of `names`, the components of the vectors
-/// are in the order of `names`. Otherwise, they are in the order of the accessor. Also returns the length of the array
-/// of the source, because the whole array is read. The array can contain more numbers than the vectors need, because
-/// several sources can share an array.
+/// Reads the vectors of a source. If the accessor has a component for each of the given `names`, the components of the
+/// vectors are in the order of `names`. Otherwise, the components are in the order of the accessor. Also returns the
+/// length of the array of the source, because the whole array is read. The array can contain more numbers than the
+/// vectors need, because several sources can share an array.
 ///
 /// # Errors
 ///

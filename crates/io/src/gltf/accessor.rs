@@ -23,7 +23,8 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the accessor does not exist. `pointer` is the JSON pointer of the reference to the accessor.
+    /// Returns an error if the accessor does not exist. `pointer` is the JSON pointer to the index that refers to the
+    /// accessor, for errors.
     pub(super) fn count(&self, index: usize, pointer: &str) -> Result<u64, Fault> {
         Ok(self.accessor(index, pointer)?.count.0)
     }
@@ -298,8 +299,8 @@ impl Reader<'_> {
         Ok((rows, n))
     }
 
-    /// Returns the indices of the elements that sparse values replace, and the rows with the sparse values. Returns
-    /// `None` if the accessor has no sparse values.
+    /// Returns the indices of the elements that the sparse values of the accessor replace, and the bytes of these
+    /// sparse values. Returns `None` if the accessor has no sparse values.
     fn sparse(&self, index: usize, size: usize) -> Result<Option<(Vec<u32>, Rows<'_>)>, Fault> {
         let accessor = &self.document.accessors[index];
         let Some(sparse) = &accessor.sparse else {
@@ -336,8 +337,8 @@ impl Reader<'_> {
         Ok(Some((targets, values)))
     }
 
-    /// Checks that an accessor without a buffer view does not declare too many elements, and returns their number as a
-    /// `usize`.
+    /// Checks that an accessor without a buffer view does not declare too many elements, and returns the number of
+    /// elements as a `usize`.
     fn zeros(&self, count: u64, here: &str) -> Result<usize, Fault> {
         let all: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
         let limit = all.max(MIN_ZEROS);

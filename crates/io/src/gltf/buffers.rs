@@ -97,9 +97,9 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 }
 
 /// Loads the bytes of all buffers. `binary` is the binary chunk of a GLB file. The chunk is not copied. When a file
-/// next to the document is read for the first time, the memory budget grows with the number of bytes read. If another
-/// buffer refers to a file that was read before, the length of this buffer is subtracted from the budget. A buffer
-/// whose flag in `fallbacks` is true is not read and stays empty.
+/// next to the document is read for the first time, the memory budget grows with the number of bytes read. If a file
+/// was already read for an earlier buffer, the length of the new buffer is subtracted from the budget. A buffer whose
+/// flag in `fallbacks` is true is not read and stays empty.
 ///
 /// # Errors
 ///

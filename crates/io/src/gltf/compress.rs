@@ -50,7 +50,7 @@ impl Array {
 }
 
 /// Compresses each piece of the buffer whose view has an entry in `arrays`. `views` and `pieces` have the same length
-/// and order. Returns all pieces at their new positions.
+/// and order. Returns all pieces, each with its new position in the buffer.
 pub(super) fn compress<'a>(
     views: &mut [Value],
     buffers: &mut Vec<Value>,

@@ -217,8 +217,8 @@ pub(super) struct Directions {
     semantic: Semantic,
     /// Returns the accessor that stores how a morph target changes the normals or tangents.
     changes: fn(&MorphTarget) -> Option<&Index<Accessor>>,
-    /// Returns the name of the mesh attribute that stores the normals or tangents after the morph target with this
-    /// index is applied.
+    /// Returns the name of the mesh attribute that stores the changed normals or tangents of the morph target with this
+    /// index.
     name: fn(usize) -> String,
     rule: Rule,
     /// The indices of the morph targets that change the normals or tangents, in ascending order.
@@ -269,10 +269,10 @@ impl Directions {
     }
 
     /// Reads how the morph targets change the normals or tangents of a primitive with `n` vertices. Returns a column
-    /// for each target in `targets`: the normals or tangents if only this target is applied, with the weight 1. `own`
-    /// contains the normals or tangents without morph targets. If `own` is `None`, the columns are zero. A value has
-    /// three or more numbers, and morph targets change the first three. `here` is the location of the primitive, for
-    /// errors.
+    /// for each target in `targets`: the normals or tangents that result if only this target is applied, with the
+    /// weight 1. `own` contains the normals or tangents to which no morph target is applied. If `own` is `None`, the
+    /// columns are zero. A value has three or more numbers, and morph targets change the first three. `here` is the
+    /// location of the primitive, for errors.
     ///
     /// # Errors
     ///

@@ -43,7 +43,7 @@ impl Compressed {
 pub(super) fn compressed(meshes: &[Value], accessors: &[Value]) -> Result<Vec<Compressed>, Fault> {
     let has_data = |accessor: &Value| {
         let accessor = accessor.as_u64().and_then(|i| usize::try_from(i).ok());
-        // An accessor that does not exist is treated as if it had data. The code that reads the accessor reports an
+        // If the accessor does not exist, it is treated as if it had data, and the code that reads it later reports the
         // error.
         let accessor = accessor.and_then(|i| accessors.get(i));
         accessor.is_none_or(|a| a.get("bufferView").is_some() || a.get("sparse").is_some())

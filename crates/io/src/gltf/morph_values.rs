@@ -36,7 +36,7 @@ impl<'a> ValueChanges<'a> {
         self.of_primitives.get(primitive).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the names of the mesh attributes that will store the changes.
+    /// Returns the names of the mesh attributes that will store the changes made by morph targets.
     pub(super) fn names(&self) -> impl Iterator<Item = String> {
         self.columns.iter().map(|&(semantic, t)| name(semantic, t))
     }

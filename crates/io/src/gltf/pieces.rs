@@ -19,7 +19,7 @@ impl Piece<'_> {
     }
 }
 
-/// Writes all parts to their positions.
+/// Writes each part to its position in `out`.
 pub(super) fn fill(out: &mut [u8], pieces: &[Piece]) {
     for piece in pieces {
         (piece.fill)(&mut out[piece.start..piece.end()]);

@@ -127,8 +127,8 @@ struct Morphed<'a> {
 }
 
 impl Morphed<'_> {
-    /// Reads the normals and tangents that result when each morph target is applied to a primitive. `n` is the number
-    /// of vertices of the primitive, and `own` contains its attributes.
+    /// For each morph target, reads the normals and tangents of the primitive that result if only this target is
+    /// applied. `n` is the number of vertices of the primitive, and `own` contains its attributes.
     ///
     /// # Errors
     ///

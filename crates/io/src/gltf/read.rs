@@ -186,8 +186,8 @@ pub(super) fn parse(json: &[u8]) -> Result<Value, Fault> {
     })
 }
 
-/// Returns the materials that the triangles use, in the order of the document. Also returns a map: each key is the
-/// index of a used material in the document, and its value is the index of this material in the returned list.
+/// Returns the materials that the triangles use, in the order of the document. Also returns a map from the index of
+/// each used material in the document to its index in the returned list.
 fn used_materials(
     materials: &mut Materials,
     triangles: &Triangles,
@@ -262,9 +262,9 @@ fn polygons(
 }
 
 /// Merges vertices that are at exactly the same position and have the same vertex attributes, and leaves out vertices
-/// without a triangle. Returns three results. The first one is the list of remaining positions, in the order of their
-/// first occurrence. The second one contains, for each vertex, the index of its position in this list. The third one is
-/// the number of vertices that are left out.
+/// without a triangle. Returns three results. The first result is the list of remaining positions, in the order of
+/// their first occurrence. The second result contains, for each vertex, the index of its position in this list. The
+/// third result is the number of vertices that are left out.
 fn weld(
     mut positions: Vec<DVec3>,
     attributes: &mut Attributes,

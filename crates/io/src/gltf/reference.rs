@@ -1,4 +1,5 @@
-//! Resolves references from one part of a glTF document to another. A reference is an index into a list.
+//! Resolves references from one part of a glTF document to another. A reference is the index of the other part in its
+//! list.
 
 use std::fmt;
 

@@ -3,8 +3,8 @@
 //!
 //! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The order
 //! consists of fans: all remaining triangles around one vertex, then all remaining triangles around the next vertex,
-//! and so on. The center of the next fan is chosen from the vertices of the previous fan. The algorithm prefers
-//! vertices that will still count as recently used when their own fan is complete.
+//! and so on. The center of the next fan is chosen from the vertices of the previous fan. The algorithm prefers a
+//! center that will still count as recently used after the triangles of its fan are added.
 
 use std::collections::BTreeMap;
 
@@ -74,8 +74,9 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
             if left[c] == 0 {
                 continue;
             }
-            // Prefers vertices that will still be recent when their fan is complete. Among these, prefers the vertex
-            // whose last use was the longest time ago. Each triangle of a fan adds at most two vertices.
+            // Prefers vertices that will still count as recently used after the triangles of their fan are added. Among
+            // these, prefers the vertex whose last use was the longest time ago. Each triangle of a fan adds at most
+            // two vertices.
             let age = time - last_use[c];
             let priority = if age + 2 * left[c] as usize <= RECENT {
                 age
@@ -116,8 +117,8 @@ impl Around {
             sum += *start;
             *start = sum;
         }
-        // Each list is filled backward. At first, the entry of a list in `starts` is the end of the list. With each
-        // added triangle, this entry decreases, until it is the start of the list.
+        // Each list is filled backward. At first, the entry of a list in `starts` is the end of the list. Each added
+        // triangle decreases this entry by 1, until it is the start of the list.
         let mut triangles = vec![0; corners.len()];
         for (i, &corner) in corners.iter().enumerate().rev() {
             let start = &mut starts[corner as usize];

@@ -31,7 +31,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         }
     }
 
-    /// Creates a reader that leaves out the arrays of numbers, because they are not in the JSON.
+    /// Creates a reader that reads only the JSON, and leaves out the arrays of numbers, which are in the buffers.
     pub(super) fn without_numbers(reader: &'a Reader<'r>) -> Self {
         Self {
             has_numbers: false,
@@ -90,7 +90,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         Ok(())
     }
 
-    /// Reads the inverse bind matrices of a skin. Returns the index of their array.
+    /// Reads the inverse bind matrices of a skin, and returns the index of the array that stores them.
     ///
     /// # Errors
     ///

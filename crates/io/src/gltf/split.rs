@@ -11,8 +11,9 @@ use crate::loss::Losses;
 use mesh::parallel::{self, BLOCK};
 
 /// The maximum number of comparisons for a corner. A corner is compared only with the latest distinct combinations of
-/// values around its vertex. This limit keeps the time for a vertex with a million corners linear. If the corners of a
-/// vertex have more distinct combinations of values than this maximum, equal corners can become different vertices.
+/// values at other corners of its vertex. This limit keeps the total time linear in the number of corners, even if one
+/// vertex has a million corners. If the corners of a vertex have more distinct combinations of values than this
+/// maximum, equal corners can become different vertices.
 const MAX_COMPARED: usize = 64;
 
 /// The glTF vertices. Without reordering, they are in the order of the vertices of the mesh.
@@ -93,8 +94,8 @@ pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: 
 /// differ.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     let file = FileVertices::of(mesh);
-    // Only copies of a vertex can have different values of a vertex attribute. If the mesh has no copies, only corner
-    // attributes are compared.
+    // Only copies of a vertex can have different values of a vertex attribute. If no vertex of the mesh has copies,
+    // only corner attributes are compared.
     let can_differ = |stream: &&Stream| stream.domain == Domain::Corner || file.has_copies();
     let seams: Vec<&Stream> = streams.iter().filter(can_differ).collect();
     let n = file.len();
@@ -151,7 +152,7 @@ fn same(a: &[[f32; 4]], b: &[[f32; 4]]) -> bool {
     pairs.all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// Converts the index of a vertex or half-edge. The index is less than 2^32.
+/// Converts the index of a vertex or half-edge to 32 bits. The index is less than 2^32.
 fn number(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

@@ -96,7 +96,7 @@ pub(super) fn streams<'a>(
         is_deformer(domain, column)
             || is_mark(domain, column)
             // If a morph target is not written, one loss is reported for the whole target. No further losses are
-            // reported for its other attributes, such as its normals.
+            // reported for other attributes of the target, such as its normals.
             || normals.is_some() && morph_normal_of(&column.name).is_some()
             || tangents.is_some() && morph_tangent_of(&column.name).is_some()
             || morph_value_of(&column.name).is_some_and(|(changed, _)| {
@@ -230,8 +230,8 @@ impl Stream<'_> {
     }
 
     /// Returns the value that is written for a corner, and whether glTF allows the value in the mesh. If glTF does not
-    /// allow it, a different value is written. The value always has four components. The caller drops those that the
-    /// stream does not need.
+    /// allow it, a different value is written. The value always has four components. The caller drops the components
+    /// that the stream does not need.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let value = value(self.domain, self.column, v, h);
         let [x, y, ..] = value;
@@ -287,8 +287,9 @@ fn tangent([x, y, z, w]: [f64; 4]) -> ([f32; 4], bool) {
     narrow([tangent.x, tangent.y, tangent.z, sign], is_kept)
 }
 
-/// Returns the direction (normal or tangent) of a morph target minus the direction `from` that is written for the mesh.
-/// If the direction of the morph target is zero or not finite, returns zero and false.
+/// Subtracts the direction `from` (a normal or tangent), which is written for the mesh, from the direction that a morph
+/// target gives, and returns the difference. If the direction of the morph target is zero or not finite, returns zero
+/// and false.
 fn delta(from: [f32; 4], [x, y, z, _]: [f64; 4]) -> ([f32; 4], bool) {
     let to = DVec3::new(x, y, z);
     if to == DVec3::ZERO || !to.is_finite() {

@@ -40,8 +40,8 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// Returns an error if the view does not exist or its buffer is too short. `pointer` is the JSON pointer of the
-    /// reference to the view.
+    /// Returns an error if the view does not exist or its buffer is too short. `pointer` is the JSON pointer to the
+    /// index that refers to the view, for errors.
     pub(super) fn view(&self, index: usize, pointer: impl fmt::Display) -> Result<&[u8], Fault> {
         let at = format!("/bufferViews/{index}");
         let view = get(&self.document.views, index, pointer, "buffer view")?;

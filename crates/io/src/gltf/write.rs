@@ -1,7 +1,7 @@
 //! Writes a scene to a glTF document and its bytes.
 //!
-//! The sizes and positions of all parts of the buffer are determined first. After the document is complete, the parts
-//! are written directly to their positions in the buffer: one part after the other, each of them by all threads.
+//! The sizes and positions of all parts of the buffer are determined first. After the document is complete, all threads
+//! together write the parts directly to their positions in the buffer, one part after the other.
 
 use std::path::Path;
 

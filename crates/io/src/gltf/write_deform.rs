@@ -111,13 +111,13 @@ impl<'a> Deformation<'a> {
         losses.add(Domain::Vertex, "joint weights", unbound, reason);
     }
 
-    /// The joints of a set at a vertex of the mesh.
+    /// The joints of vertex `v` in a set (a group of four joints).
     pub(super) fn joints(&self, v: usize, set: usize) -> [u16; 4] {
         let start = 4 * (v * self.sets + set);
         std::array::from_fn(|i| self.joints[start + i])
     }
 
-    /// The weights of a set at a vertex of the mesh.
+    /// The weights of vertex `v` for a set (a group of four joints).
     pub(super) fn weights(&self, v: usize, set: usize) -> [f32; 4] {
         let start = 4 * (v * self.sets + set);
         std::array::from_fn(|i| self.weights[start + i])

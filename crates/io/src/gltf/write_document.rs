@@ -148,8 +148,8 @@ impl<'a> Writer<'a> {
             };
             for (key, value) in members {
                 match (&mut part[&key], value) {
-                    // If the extras of `asset` already contain the provenance, the extras from the graph are added to
-                    // these extras.
+                    // The `asset` can already have extras with the provenance. The extras from the graph are then added
+                    // to them.
                     (Value::Object(extras), Value::Object(more)) => extras.extend(more),
                     (place, value) => *place = value,
                 }

@@ -34,8 +34,8 @@ pub(super) struct MaterialWriter {
 
 impl MaterialWriter {
     /// Returns the index of a material in the document, and adds the material if no equal material exists yet. `n_uvs`
-    /// is the number of sets of texture coordinates of the mesh that uses the material. Textures that need other sets
-    /// are not written.
+    /// says how many sets of texture coordinates the mesh with this material has. Textures that need other sets are not
+    /// written.
     ///
     /// # Errors
     ///
@@ -206,7 +206,7 @@ impl MaterialWriter {
     }
 }
 
-/// Removes the textures for which `keep` returns false, and returns their number.
+/// Removes the textures for which `keep` returns false, and returns the number of removed textures.
 fn drop_textures(material: &mut Material, keep: impl Fn(&Texture) -> bool) -> usize {
     let textures = [
         &mut material.base_color_texture,

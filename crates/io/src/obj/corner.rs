@@ -31,15 +31,15 @@ pub(super) enum Limits {
     /// The whole file is parsed for the first time. Positive indices are not checked, because they can refer to
     /// elements that later lines define. Negative indices are checked.
     Start,
-    /// The whole file is parsed again, and all indices are checked. The value of the variant is the number of elements
-    /// that the file defines.
+    /// The whole file is parsed again, and all indices are checked. The field contains the number of elements that the
+    /// file defines.
     Whole(Counts),
 }
 
 const NOUNS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` contains the numbers of positions, texture coordinates and normals
-/// that are defined before this corner.
+/// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` contains how many positions, texture coordinates and normals are
+/// defined before this corner.
 ///
 /// # Errors
 ///

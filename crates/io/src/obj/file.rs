@@ -36,15 +36,15 @@ pub(super) struct ObjFile {
     /// The runs of consecutive faces with the same groups, object, material and smoothing group. If there are faces,
     /// the first run begins with face 0. Each run ends before the first face of the next run.
     pub(super) runs: Vec<Run>,
-    /// The sets of groups that the runs of faces refer to. Each set contains indices into `group_names`. Set 0 is
-    /// empty.
+    /// The distinct sets of groups. Each run of faces refers to one of them. Each set contains indices into
+    /// `group_names`. Set 0 is empty.
     pub(super) group_sets: Vec<Vec<u32>>,
     pub(super) group_names: Vec<String>,
     pub(super) object_names: Vec<String>,
     pub(super) material_names: Vec<String>,
     /// The text after each `mtllib`, with its position.
     pub(super) libraries: Vec<(TextPosition, String)>,
-    /// For each kind of content that was left out, its number of occurrences and its first line.
+    /// For each kind of content that was left out, how often it occurs, and the first line in which it occurs.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
 }
 
@@ -65,7 +65,7 @@ pub(super) struct Run {
 /// Content that the reader leaves out or changes.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum LeftOut {
-    /// Statements of the format that do not describe polygons. The value of the variant is the keyword.
+    /// Statements of the format that do not describe polygons. The field is the keyword.
     Statement(String),
     /// Words that are not a statement of the format.
     Unknown(String),

@@ -21,8 +21,8 @@ const MAX_NAMES: usize = 512;
 /// The maximum length in bytes of a file name that is looked up.
 const MAX_PATH_BYTES: usize = 1024;
 
-/// Reads the materials of an OBJ file. The materials of the libraries come first, in the order of the libraries. If the
-/// OBJ file uses material names that no library defines, a default material for each of these names follows.
+/// Reads the materials of an OBJ file. The materials of the libraries come first, in the order of the libraries. Then,
+/// for each material name that the OBJ file uses but no library defines, a default material follows.
 ///
 /// # Errors
 ///

@@ -103,8 +103,8 @@ impl Part {
     }
 
     /// Keeps the first `n` face corners and removes the others. The columns are positions, texture coordinates and
-    /// normals. A column whose flag in `had` is false was empty before the removed corners were added, and becomes
-    /// empty again.
+    /// normals. The flags in `had` are false for columns that were empty before the removed corners were added. These
+    /// columns become empty again.
     pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {
         for (column, had) in self.corners.iter_mut().zip(had) {
             column.truncate(if had { n } else { 0 });

@@ -81,8 +81,8 @@ struct Counts {
     smoothing: bool,
     /// The text after each `mtllib`, with its position.
     libraries: Vec<(TextPosition, String)>,
-    /// For each kind of content that is left out, its number of occurrences and its first line, in the order of the
-    /// lines. Unknown statements are not counted.
+    /// For each kind of content that is left out, how often it occurs, and the first line in which it occurs. The list
+    /// is in the order of these lines. Unknown statements are not counted.
     left_out: Vec<(LeftOut, (usize, usize))>,
     n_lines: usize,
 }
@@ -191,7 +191,7 @@ impl Counts {
         counts
     }
 
-    /// Adds the counts of the part that follows the parts counted so far.
+    /// Adds the counts of the next part of the text to the counts of the parts before it.
     fn add(&mut self, next: Self) {
         let (mesh, other) = (&mut self.mesh, &next.mesh);
         mesh.colors |= other.colors;

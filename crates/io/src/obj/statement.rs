@@ -132,7 +132,7 @@ impl Parser<'_> {
 
     // ---- Vertices, texture coordinates, normals ------------------------------------------------
 
-    /// Adds a vertex that has only the first `n` values.
+    /// Adds a vertex for which the line has only the first `n` of the `values`.
     pub(super) fn vertex(
         &mut self,
         place: TextPosition,

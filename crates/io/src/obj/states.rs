@@ -18,8 +18,8 @@ pub(super) struct FaceState<'a> {
     pub(super) smoothing: i32,
 }
 
-/// What applies at the end of the text of an object: the material, the smoothing group, and the numbers of elements
-/// that are defined so far. At this point, no groups are set.
+/// The state at the end of the text of an object: the material, the smoothing group, and the numbers of elements that
+/// are defined so far. At this point, no groups are set.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TextState {
     pub(super) counts: Counts,
@@ -29,7 +29,7 @@ pub(super) struct TextState {
 
 /// The attribute columns that determine the groups, object, material and smoothing group of each written face.
 pub(super) struct FaceStates<'a> {
-    /// The tags that are written as `o` statements. The list is empty, or each face has exactly one of the tags.
+    /// The tags that are written as `o` statements. If the list is not empty, each face has exactly one of the tags.
     objects: Vec<(&'a str, &'a [bool])>,
     groups: Vec<(&'a str, &'a [bool])>,
     materials: Option<&'a [i32]>,
@@ -61,8 +61,8 @@ impl<'a> FaceStates<'a> {
             let is_of = |(name, marks): &&(&str, &[bool])| is_object(name) && marks[f];
             groups.iter().filter(is_of).count() == 1
         };
-        // The tags of objects are written as `o` statements only if each face has exactly one of these tags, and the
-        // scene has only one object. Otherwise, they are written as groups.
+        // The tags of objects are written as `o` statements only if the scene has only one object, and each face has
+        // exactly one of these tags. Otherwise, they are written as groups.
         let objects = if !several && parallel::all(mesh.n_faces(), one_object_each) {
             groups.extract_if(.., |(name, _)| is_object(name)).collect()
         } else {

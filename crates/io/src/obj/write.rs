@@ -86,7 +86,7 @@ pub(crate) fn write(
     })
 }
 
-/// The geometry of an object that OBJ can store.
+/// The kinds of geometry that OBJ can store.
 enum Shape<'a> {
     /// A mesh whose arrays have no gaps from removed elements.
     Mesh(Box<Cow<'a, Mesh>>),

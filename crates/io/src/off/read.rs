@@ -371,7 +371,7 @@ pub(crate) fn peek(
             let words = (0..degree).map_while(|_| cursor.argument());
             let vertices: Vec<&[u8]> = words.map(|(_, word)| word).collect();
             // The function `are_different` returns false if an index begins with a zero, even for the index `0`.
-            // Therefore, `0` is counted separately: the vertices are different if `0` occurs at most once, and
+            // Therefore, the index `0` is counted separately. The vertices are different if `0` occurs at most once and
             // `are_different` returns true for the other indices.
             let others: Vec<&[u8]> = (vertices.iter().copied())
                 .filter(|word| *word != b"0")

@@ -18,8 +18,8 @@ use mesh::counted;
 pub(super) struct Body<'a> {
     file: &'a [u8],
     header: &'a Header,
-    /// The elements of the header. In a text file, the types of their properties are changed to the types of the values
-    /// in [`bytes`](Self::bytes).
+    /// The elements of the header. For a text file, the property types in this list are changed to the types of the
+    /// values in [`bytes`](Self::bytes).
     elements: Vec<Element>,
     bytes: Cow<'a, [u8]>,
     /// The position in `bytes` at which the values begin.

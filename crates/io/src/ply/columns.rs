@@ -64,16 +64,16 @@ impl Kind {
 /// The properties of a PLY element that store the values of a mesh attribute.
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a> {
-    /// The numbers of a value are in consecutive scalar properties. The value of the variant is the index of the first
-    /// of these properties.
+    /// The numbers of a value are in consecutive scalar properties. The field is the index of the first of these
+    /// properties.
     Scalars(usize),
-    /// The numbers of all corners of a face are in a list property. The first value of the variant is the index of the
-    /// property. The second value contains the first corner of each face, followed by the total number of corners.
+    /// The numbers of all corners of a face are in a list property. The first field is the index of the property. The
+    /// second field contains the index of the first corner of each face, followed by the total number of corners.
     List(usize, &'a [u32]),
 }
 
 /// Decodes the values of an attribute. Corner values are stored as a list for each face. If the length of a list
-/// differs from the number of corners of its face, the corners of the face get zero. Returns the values and the number
+/// differs from the number of corners of its face, all corners of this face get zero. Returns the values and the number
 /// of faces with a wrong list.
 pub(super) fn values(table: &Table, source: Source, kind: Kind) -> (Values, usize) {
     #[expect(
@@ -174,8 +174,9 @@ fn for_blocks<V: Send>(
     });
 }
 
-/// Two arrays. The second one contains the items of the lists of all rows, one list after the other. The first one
-/// contains the offset in the second array at which each list starts, followed by the total number of items.
+/// Two arrays. The second array contains the items of the lists of all rows, one list after the other. The first array
+/// contains, for each list, the offset in the second array at which the list starts, followed by the total number of
+/// items.
 type Lists = (Vec<u32>, Vec<u32>);
 
 /// Reads the lists of a table as vertex indices. Returns the offsets and the indices.

@@ -150,7 +150,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
     Err(TextPosition::of_line(header.lines + 1).error(message))
 }
 
-/// Returns the byte at which each line of the header ends: CR if lines end in CR alone, otherwise LF. Only the first
+/// Returns the byte value that ends each line of the header: CR if lines end in CR alone, otherwise LF. Only the first
 /// line is examined, because data bytes after the header can look like line ends.
 fn line_end(bytes: &[u8]) -> u8 {
     let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));

@@ -59,8 +59,8 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     Ok(reader.polygons)
 }
 
-/// Returns the comments that describe an attribute, if the property that they name exists. If several comments with the
-/// same domain describe the same property, only the first of them is returned.
+/// Returns the comments that describe attributes and name an existing property. If several comments with the same
+/// domain describe the same property, only the first of them is returned.
 pub(super) fn attribute_comments(header: &Header) -> Vec<AttributeComment> {
     let properties = header.elements.iter().flat_map(|e| &e.properties);
     let names: BTreeSet<&str> = properties.map(|p| p.name.as_str()).collect();

@@ -6,7 +6,7 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::TextPosition;
 
-/// The elements that become a mesh. Elements and properties are given by their indices.
+/// The elements that become a mesh. The fields contain the indices of elements and properties.
 #[derive(Debug)]
 pub(super) struct Roles {
     pub(super) vertex: usize,
@@ -103,8 +103,8 @@ fn corner_list(element: &Element) -> Result<usize, Fault> {
     )))
 }
 
-/// Each entry of `names` is a family of property names, such as `s` and `t`. Returns the indices of the properties of
-/// the first complete family.
+/// Each entry of `names` is a family of property names, such as `s` and `t`. Returns the property indices of the first
+/// family whose properties all exist.
 fn family<const N: usize>(element: &Element, names: &[[&str; N]]) -> Option<[usize; N]> {
     names.iter().find_map(|family| {
         let mut found = [0; N];

@@ -31,8 +31,8 @@ enum Layout {
         counts: Vec<usize>,
     },
     Uneven {
-        /// For each property, its segment and its offset in the segment. For a list, this is the offset of its first
-        /// item.
+        /// For each property, the segment that contains its value, and the offset of the value in this segment. For a
+        /// list, this is the offset of its first item.
         places: Vec<(usize, usize)>,
         /// For each segment, the position at which it begins in each row. Empty if no property is in the segment.
         starts: Vec<Vec<usize>>,
@@ -126,8 +126,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns the number of items in the lists of a property, if every list of the element has the same length in all
-    /// rows. Otherwise, returns `None`.
+    /// Returns the number of items in each list of a property, if each list property of the element has the same list
+    /// length in all rows. Otherwise, returns `None`.
     pub(super) fn even_count(&self, property: usize) -> Option<usize> {
         match &self.layout {
             Layout::Even { counts, .. } => Some(counts[property]),
@@ -136,8 +136,8 @@ impl<'a> Table<'a> {
     }
 }
 
-/// If the length of each list is the same in all rows, returns the layout and the total length of the rows. Otherwise,
-/// returns `None`.
+/// Returns the layout and the total length of the rows if each list property has the same list length in all rows.
+/// Otherwise, returns `None`.
 fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option<(Layout, usize)> {
     let mut at = 0_usize;
     let (mut places, mut counts, mut lists) = (Vec::new(), Vec::new(), Vec::new());

@@ -110,7 +110,7 @@ struct Element<'a> {
 /// A field of each row.
 enum Field<'a> {
     Positions(&'a [DVec3]),
-    /// The vertex indices of a face. The value of this variant is the type in which the number of indices is stored.
+    /// The vertex indices of a face. The field is the type in which the number of indices is stored.
     Corners(Type),
     Values {
         values: Cow<'a, Values>,
@@ -196,7 +196,7 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Adds the values of an attribute as properties with these names. Other programs know the names.
+    /// Adds the values of an attribute as properties with these standard names, which other programs know.
     fn known(&mut self, names: &[&str], values: Cow<'a, Values>) {
         let opaque = match &*values {
             Values::Vec4(colors) => parallel::all(colors.len(), |i| colors[i].w == 1.0),

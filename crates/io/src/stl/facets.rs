@@ -1,4 +1,4 @@
-//! Stores facets, and compares their normals with their corners.
+//! Stores facets, and compares the normal of each facet with its corners.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use glam::DVec3;
 pub(super) struct Facets {
     /// Three corners for each facet.
     pub(super) corners: Vec<DVec3>,
-    /// For each [`Side`], the number of facets whose normal has this relation to the computed normal.
+    /// The number of facets with each [`Side`] (how the normal in the file relates to the computed normal).
     pub(super) sides: [usize; 3],
     /// The number of facets whose attribute bytes are not 0.
     pub(super) colored: usize,

@@ -11,8 +11,9 @@
 //! | header, `solid a` of the only solid | not kept |
 //! | attribute bytes other than 0 (colors, in two dialects) | left out, with a note |
 //!
-//! If the size of a file matches the number of triangles that it declares, the file is binary, even if its first word
-//! is `solid`. Otherwise, a file that begins with `solid` is a text file, unless one of its first 512 bytes is zero.
+//! If the size of a file matches the number of triangles that the file declares, the file is binary, even if its first
+//! word is `solid`. Otherwise, a file that begins with `solid` is a text file, unless one of its first 512 bytes is
+//! zero.
 //!
 //! The writer creates binary files with 32-bit coordinates. Polygons are triangulated. The header stores
 //! [`provenance`](crate::WriteOptions::provenance). All attributes are lost.

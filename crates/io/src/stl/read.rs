@@ -15,7 +15,7 @@ use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::text::BYTE_ORDER_MARK;
 use crate::weld::weld;
 
-/// The texts of notes that report the left-out content of binary files.
+/// For binary files: the texts of the notes about content that is left out.
 const REST: &str = "bytes left out after the last facet";
 const COLORED: &str = "facets with attribute bytes (possibly colors): these bytes are left out";
 
@@ -42,7 +42,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
 
 enum Kind {
     Text,
-    /// A binary file. The value of the variant is the position at which the facets end, in bytes.
+    /// A binary file. The field is the position at which the facets end, in bytes.
     Binary(usize),
 }
 
@@ -156,7 +156,7 @@ pub(crate) fn peek(
 ) -> Result<(PeekMesh, Option<AttributeNames>), Fault> {
     let mut mesh = PeekMesh::default();
     // If a text file has several solids, the faces of each solid get a tag. The names of these tags are not determined
-    // here, so the attributes are unknown.
+    // here, so the list of attributes is then unknown.
     let mut names = Some(Vec::new());
     let n = match kind(bytes)? {
         Kind::Text => {

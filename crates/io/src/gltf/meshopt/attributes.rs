@@ -35,7 +35,7 @@ const MORE_BITS: Bits = [1, 2, 4, 8];
 enum Channel {
     /// The channel has four differences, one for each byte.
     Bytes,
-    /// The channel has two differences, one for each 16-bit number.
+    /// The channel is two 16-bit numbers, and each of them has its own difference.
     Shorts,
     /// The difference is the bitwise XOR of the channel and the same channel of the previous element, rotated left by
     /// this number of bits.
@@ -48,8 +48,8 @@ pub(super) fn elements_in_block(stride: usize) -> usize {
 
 /// A lower bound for the size of a stream in bytes. The stream has `count` elements, each with `stride` bytes. The
 /// stride is at most 256. A block is shortest if all its differences are 0. In version 0, such a block needs 2 bits for
-/// each group of 16 differences. In version 1, it needs 2 bits for each byte of an element, regardless of the number of
-/// elements in the block.
+/// each group of 16 differences. In version 1, such a block needs 2 bits for each byte of an element, regardless of the
+/// number of elements in the block.
 pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
     let block = elements_in_block(stride) as u64;

@@ -3,8 +3,8 @@
 use super::attributes::{BLOCK, GROUP, elements_in_block};
 use mesh::parallel;
 
-/// The minimum size in bytes of the tail at the end of a stream. If an element is longer, the tail is as long as the
-/// element.
+/// The minimum size in bytes of the tail at the end of a stream. If an element is longer than this minimum, the tail is
+/// as long as the element.
 const TAIL: usize = 32;
 
 /// Encodes elements of `stride` bytes. The stride is a multiple of 4 from 4 to 256. The length of `elements` is a

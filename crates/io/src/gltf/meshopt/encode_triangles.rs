@@ -2,9 +2,9 @@
 
 use super::triangles::Recent;
 
-/// The table at the end of each stream. Each byte is a pair of 4-bit values, to which the code of a triangle can refer.
-/// The format allows any table. This table contains pairs that are frequent in real meshes (`kCodeAuxEncodingTable` of
-/// meshoptimizer).
+/// The table at the end of each stream. Each byte is a pair of 4-bit values. The code of a triangle can refer to one of
+/// these pairs. The format allows any table. This table contains pairs that are frequent in real meshes
+/// (`kCodeAuxEncodingTable` of meshoptimizer).
 const PAIRS: [u8; 16] = [
     0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0,
 ];

@@ -114,8 +114,8 @@ fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
 /// The encoding of a unit quaternion leaves out its largest component. Restores this component. Returns the quaternion,
 /// multiplied by 32767 and rounded.
 ///
-/// The argument `last` contains two numbers. Its lowest two bits are the index of the largest component. If these two
-/// bits are replaced by ones, the result is the integer that represents 1.
+/// The argument `last` stores two numbers. Its lowest two bits are the index of the largest component. If both bits are
+/// set to 1, the value of `last` is the integer that represents 1.
 fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
     let one = f32::from(last | 3);
     let [x, y, z] = [x, y, z].map(|x| f32::from(x) / one * std::f32::consts::FRAC_1_SQRT_2);
@@ -126,7 +126,7 @@ fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
 }
 
 /// Returns m 2^e, where m is the mantissa in the lower 24 bits, and e is the exponent in the upper 8 bits. The result
-/// is infinite if it is too large.
+/// is infinite if it exceeds the range of 32-bit floats.
 fn exponential(bits: i32) -> f32 {
     let (exponent, mantissa) = (bits >> 24, bits << 8 >> 8);
     // The number is computed as a 64-bit float, because a 64-bit float can store it exactly for every exponent.

@@ -180,7 +180,7 @@ impl<T: Copy + Default> Recent<T> {
         self.n += 1;
     }
 
-    /// The value that was added `back` values before the latest one.
+    /// The value that was added `back` steps before the latest one.
     pub(super) fn get(&self, back: u8) -> Option<T> {
         let place = self.n.checked_sub(1 + usize::from(back))?;
         Some(self.all[place % 16])

@@ -152,7 +152,8 @@ impl Format {
         (!kinds.contains(&kind)).then(|| format!("{stores}, found {kind}"))
     }
 
-    /// Returns the reason why files of this format cannot store `n` objects. Returns `None` if they can.
+    /// Returns the reason why files of this format cannot store `n` objects. Returns `None` if such files can store `n`
+    /// objects.
     pub fn refused_count(self, n: usize) -> Option<String> {
         (self == Self::Bzc && n != 1).then(|| {
             format!(

@@ -136,10 +136,10 @@ pub struct ReadOptions {
     pub placements: Placements,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
-    /// Whether reading marks the copies of vertices. When a mesh is not a manifold, reading splits vertices into
-    /// copies. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the writer merges the
-    /// marked copies again. The written file then has the same vertices as the original file. Use this option to
-    /// convert a file to another format without editing its mesh.
+    /// When a mesh is not a manifold, reading splits vertices into copies. This option decides whether reading marks
+    /// these copies. If the mesh is then written to an `.obj`, `.ply`, `.off`, `.gltf` or `.glb` file, the writer
+    /// merges the marked copies again. The written file then has the same vertices as the original file. Use this
+    /// option to convert a file to another format without editing its mesh.
     pub keep_vertices: bool,
     /// The memory budget in bytes. The budget is the maximum size of all images together, and also the maximum size of
     /// the decompressed content of a `.gz` file. Defaults to 4 GiB.
@@ -195,7 +195,7 @@ pub struct WriteReport {
     pub files: Vec<PathBuf>,
     /// The total size of the files in bytes.
     pub bytes: u64,
-    /// The content of the scene that the files do not store.
+    /// The content that the files do not store.
     pub losses: Vec<Loss>,
     /// The effects of compression and quantization. `None` if neither compression nor quantization was requested.
     pub packing: Option<PackingReport>,

@@ -345,8 +345,8 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// Returns `name` if it is unused. If `name` is used, tries `name.2`, `name.3` and so on, returns the first unused
-    /// one, and adds a note.
+    /// Returns `name` if it is unused. Otherwise, tries `name.2`, `name.3` and so on, returns the first of these names
+    /// that is unused, and adds a note.
     pub(crate) fn unique(&mut self, name: &str, notes: &mut Notes) -> String {
         let mut new = name.to_owned();
         while !self.taken.insert(new.clone()) {

@@ -62,7 +62,7 @@ pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
 }
 
 /// Refuses text for which the XML parser would take too much time or memory. The parser allocates an entry for each `<`
-/// and `=`, and compares all attributes of an element with each other. It also copies the list of all namespaces for
+/// and `=`, and compares each attribute of an element with all others. It also copies the list of all namespaces for
 /// each element that declares a namespace.
 fn check_size(text: &str) -> Result<(), Fault> {
     const MAX_ATTRIBUTES: usize = 200;

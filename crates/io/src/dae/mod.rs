@@ -231,7 +231,7 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Counts the elements in the libraries that the reader leaves out, such as cameras.
+/// Counts the library elements that the reader leaves out, such as cameras.
 fn note_libraries(document: &Document) {
     for library in elements(document.root) {
         let what = match library.tag_name().name() {

@@ -226,7 +226,7 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    /// The normals of a mesh with these primitives.
+    /// Describes the normals of a mesh with these primitives, and the morph targets that change them.
     pub(super) fn normals(primitives: &[Primitive]) -> Self {
         let normals = Self {
             semantic: Semantic::Normals,
@@ -238,7 +238,7 @@ impl Directions {
         normals.of(primitives)
     }
 
-    /// The tangents of a mesh with these primitives.
+    /// Describes the tangents of a mesh with these primitives, and the morph targets that change them.
     pub(super) fn tangents(primitives: &[Primitive]) -> Self {
         let tangents = Self {
             semantic: Semantic::Tangents,

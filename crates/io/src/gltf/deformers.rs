@@ -26,7 +26,7 @@ impl Deformers {
         self.joints.unwrap_or(0)
     }
 
-    /// Returns the deformers of each mesh of a document.
+    /// Returns how many joints and morph targets deform each mesh of a document.
     pub(super) fn of_meshes(document: &Document) -> Vec<Self> {
         let meshes = document.meshes.iter();
         let mut all: Vec<Self> = meshes

@@ -147,8 +147,8 @@ fn mark(flags: &mut [bool], i: usize) -> bool {
         .is_some_and(|flag| !std::mem::replace(flag, true))
 }
 
-/// Counts the attributes of morph targets that are not read. The keys are the names of the attributes. Meshes for which
-/// `is_used` is false are skipped.
+/// Counts the morph target attributes that the reader leaves out. The keys are the names of the attributes. Meshes for
+/// which `is_used` is false are skipped.
 fn morph_attributes(json: &Value, is_used: &[bool]) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     let meshes = elements(json, "meshes").zip(is_used);

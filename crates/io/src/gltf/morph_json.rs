@@ -28,7 +28,8 @@ fn semantic(name: &str) -> Option<Semantic> {
         Some(set) => Semantic::TexCoords(set.parse().ok()?),
         None => Semantic::Colors(0),
     };
-    // Unlike glTF, `parse` accepts leading zeros in the number of a set. The comparison with `name` refuses them.
+    // Unlike glTF, `parse` accepts leading zeros in the number of a set. This comparison with `name` refuses such
+    // names.
     (semantic.to_string() == name).then_some(semantic)
 }
 

@@ -31,8 +31,8 @@ const MISSING_ATTRIBUTE_CHARGE: u64 = 16;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// The corner attributes, and the vertex attributes that deform the mesh. In this struct, corner attributes also
-    /// have one value for each vertex. The texture coordinate v points up.
+    /// The corner attributes, and the vertex attributes that deform the mesh. In this struct, a corner attribute also
+    /// has one value for each vertex. The texture coordinate v points up.
     pub(super) attributes: Attributes,
     /// Three vertex indices for each triangle.
     pub(super) corners: Vec<u32>,

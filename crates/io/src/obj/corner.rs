@@ -64,9 +64,9 @@ pub(super) fn corner(
     Ok(corner)
 }
 
-/// Parses the text `field` of an index. `word` is the text of the whole corner, for errors. `count` is the number of
-/// elements of this kind that are defined so far. `limit` is the maximum number of elements of this kind in the whole
-/// file. It is `None` if only a part of the file is parsed.
+/// Parses `field`, which is the text of an index. `word` is the text of the whole corner, for errors. `count` is the
+/// number of elements of this kind that are defined so far. `limit` is the maximum number of elements of this kind in
+/// the whole file. It is `None` if only a part of the file is parsed.
 fn index(
     place: TextPosition,
     word: &[u8],

@@ -88,8 +88,8 @@ pub(super) fn read_libraries(
     Ok(materials)
 }
 
-/// Returns the file names on an `mtllib` line. A name is one word, unless it is in quotes or an existing file has a
-/// name of several words. Returns at most `most` names, and the number of words after them.
+/// Returns the file names on an `mtllib` line. A name is one word, or several words if it is in quotes or if an
+/// existing file has this name. Returns at most `most` names, and the number of words after them.
 fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>, usize) {
     let mut is_file = |name: &str| {
         let short = Some(name).filter(|name| name.len() <= MAX_PATH_BYTES);
@@ -117,8 +117,7 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     (names, rest.split_whitespace().count())
 }
 
-/// The maximum number of blanks at which the reader tries to end a file name, beginning with the last blank of the
-/// line.
+/// The reader tries to end a file name at this many blanks at most. It begins with the last blank of the line.
 const MAX_BLANKS: usize = 16;
 
 /// Reads the materials of one library. Lines that cannot be read are left out, with a note.

@@ -60,7 +60,7 @@ impl Part {
         [self.positions.len(), self.uvs.len(), self.normals.len()]
     }
 
-    /// The number of corners of faces.
+    /// The number of corners of all faces.
     pub(super) fn n_corners(&self) -> usize {
         self.corners[0].len()
     }

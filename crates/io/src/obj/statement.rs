@@ -108,8 +108,8 @@ impl Parser<'_> {
     }
 
     /// Decides whether an unknown word is listed by name. Binary data can have very many distinct unknown words, so
-    /// only the first few of the file are listed. While a part is parsed, the unknown words of earlier parts are not
-    /// known. Therefore, parsing a part with too many unknown words fails, and the whole file is parsed in order.
+    /// only the first few of the file are listed. The parser of a part does not see the words of earlier parts.
+    /// Therefore, parsing a part with too many unknown words fails, and the whole file is parsed in order.
     fn unknown(&self, place: TextPosition, word: String) -> Result<LeftOut, Fault> {
         let key = LeftOut::Unknown(word);
         let known = &self.part.left_out;

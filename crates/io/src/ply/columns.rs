@@ -64,11 +64,11 @@ impl Kind {
 /// The properties of a PLY element that store the values of a mesh attribute.
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a> {
-    /// The numbers of a value are in consecutive scalar properties. The field is the index of the first of these
+    /// The components of a value are in consecutive scalar properties. The field is the index of the first of these
     /// properties.
     Scalars(usize),
-    /// The numbers of all corners of a face are in a list property. The first field is the index of the property. The
-    /// second field contains the index of the first corner of each face, followed by the total number of corners.
+    /// The components for all corners of a face are in one list property. The first field is the index of the property.
+    /// The second field contains the index of the first corner of each face, followed by the total number of corners.
     List(usize, &'a [u32]),
 }
 

@@ -130,8 +130,8 @@ fn names_of(domain: Domain, element: &Element, used: usize, header: &Header) -> 
     names
 }
 
-/// Adds notes on the lists of an element that are left out. `used` is the index of the property that lists the vertices
-/// of faces.
+/// Adds notes on the list properties of an element that the reader does not read. `used` is the index of the property
+/// that lists the vertices of faces.
 fn note_lists((element, used): (&Element, usize), header: &Header, notes: &mut Notes) {
     let described = attribute_comments(header);
     let is_used = |place: usize, property: &Property| {

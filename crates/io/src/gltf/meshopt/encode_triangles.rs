@@ -13,8 +13,8 @@ const PAIRS: [u8; 16] = [
 const N_PAIRS: usize = 14;
 
 /// Encodes triangles whose indices have N bytes, without changing their order. If a triangle shares an edge with an
-/// earlier triangle, the two ends of this edge become its first corners. Therefore, decoding can give the triangle (b,
-/// c, a) instead of (a, b, c).
+/// earlier triangle, it is stored with the two ends of this edge as its first corners. Therefore, decoding can give the
+/// triangle (b, c, a) instead of (a, b, c).
 pub(in super::super) fn encode<const N: usize>(
     bytes: &[u8],
     index: impl Fn([u8; N]) -> u32,

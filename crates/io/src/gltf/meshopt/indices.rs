@@ -18,7 +18,7 @@ pub(super) fn shortest(count: u64) -> u64 {
     count.saturating_add(1 + u64::from(TAIL))
 }
 
-/// Decodes an index for each slot. A slot is a function that stores an index.
+/// Decodes an index for each of the `slots`, which are functions that store an index.
 ///
 /// # Errors
 ///

@@ -10,7 +10,7 @@ pub(super) struct Input<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// Creates an input that starts after the first byte of the stream and ends `tail` bytes before its end.
+    /// Creates an input that starts after the first byte of `stream` and ends `tail` bytes before the end of `stream`.
     ///
     /// # Errors
     ///

@@ -217,7 +217,7 @@ impl Compressed {
     }
 }
 
-/// Returns slots for 16-bit indices. A slot is a function that stores an index. Higher bits are dropped.
+/// Returns functions that each store an index in 16 bits. Higher bits are dropped.
 fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     let slots = bytes.as_chunks_mut::<2>().0.iter_mut();
     slots.map(|slot| {
@@ -228,7 +228,7 @@ fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     })
 }
 
-/// Returns slots for 32-bit indices. A slot is a function that stores an index.
+/// Returns functions that each store an index in 32 bits.
 fn longs(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     let slots = bytes.as_chunks_mut::<4>().0.iter_mut();
     slots.map(|slot| move |i: u32| *slot = i.to_le_bytes())

@@ -27,7 +27,7 @@ impl CornerNumbers {
     /// Assigns numbers to the values of corners. `equal` returns whether two corners of one vertex have the same value.
     /// A corner is compared only with the latest [`MAX_COMPARED`] distinct values at its vertex. This limit keeps the
     /// total time linear in the number of corners, even if one vertex has a million corners. If a vertex has more
-    /// distinct values than this limit, a value can get a second number.
+    /// distinct values than this limit, the same value can get two different numbers.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
         // Relaxed stores are sufficient, because only one task writes each entry. The entry of a half-edge in `same` is
         // written by the task for its first vertex. An entry of `numbers` is written by the task for the number that is

@@ -134,7 +134,7 @@ impl Reader<'_> {
     /// # Errors
     ///
     /// Returns an error if the type of the accessor is not in `types`, the accessor exceeds its buffer, or a value is
-    /// not finite. `pointer` is the JSON pointer of the reference to the accessor.
+    /// not finite. `pointer` is the JSON pointer to the index that refers to the accessor, for errors.
     pub(super) fn vectors<const N: usize, T: Value>(
         &self,
         index: usize,

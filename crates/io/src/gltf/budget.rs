@@ -20,7 +20,7 @@ const COMPRESSED: u64 = 4;
 #[derive(Default)]
 pub(super) struct Budget {
     left: Cell<u64>,
-    /// The second budget: the total size in bytes that further decoded views are allowed to have.
+    /// The second budget: how many bytes further decoded views can have in total.
     inflation: Cell<u64>,
 }
 

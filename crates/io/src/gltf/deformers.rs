@@ -5,7 +5,7 @@ use gltf_json::validation::Checked;
 
 use super::document::Document;
 
-/// The numbers of joints and morph targets that deform a mesh, according to the JSON.
+/// How many joints and morph targets deform a mesh, according to the JSON.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Deformers {
     /// The number of sets of joints and weights (`JOINTS_n` and `WEIGHTS_n`).

@@ -11,7 +11,7 @@ use crate::fault::Fault;
 /// The extension for lights.
 pub(super) const LIGHTS: &str = "KHR_lights_punctual";
 
-/// A node. The numbers of the node are not rounded to 32 bits.
+/// A node. Its numbers, such as its translation, are not rounded to 32 bits.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct NodeJson {

@@ -119,7 +119,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         Ok(Some(array))
     }
 
-    /// Returns the numbers of the array with this index.
+    /// Returns the array with this index.
     pub(super) fn numbers(&self, array: usize) -> &[f32] {
         &self.arrays[array]
     }

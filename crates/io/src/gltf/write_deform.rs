@@ -215,9 +215,9 @@ impl Bound {
     }
 }
 
-/// Returns the morph targets of an object. The graph stores the weights of the morph targets in the label of the
-/// object. The number of targets in the result is the number of weights or the number of targets with deltas, whichever
-/// is larger. If the mesh has no deltas, the result is empty.
+/// Returns the morph targets of an object. In the graph, the weights of the morph targets are in the
+/// [`MeshLabel`](scene::MeshLabel) of the object. The number of targets in the result is the number of weights or the
+/// number of targets with deltas, whichever is larger. If the mesh has no deltas, the result is empty.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,

@@ -124,7 +124,7 @@ fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
             [&translation[..], rotation, scale].concat()
         }
     };
-    // Readers round the numbers of a node to 32 bits, so larger numbers would become infinite.
+    // Readers round the transform of a node to 32 bits, so larger numbers would become infinite.
     if numbers.iter().all(|&x| x.abs() <= f64::from(f32::MAX)) {
         return Ok(());
     }

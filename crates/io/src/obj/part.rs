@@ -42,12 +42,12 @@ pub(super) struct Part {
     /// The names of materials. A `usemtl` statement with an empty name means that the following faces have no material.
     pub(super) materials: Names,
     pub(super) libraries: Vec<(TextPosition, String)>,
-    /// For each kind of content that was left out, its number of occurrences and its first line.
+    /// For each kind of content that was left out, how often it occurs, and the first line in which it occurs.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
-    /// The absolute indices of this part are valid if the file defines at least these numbers of positions, texture
+    /// The absolute indices of this part are valid if the file defines at least this many positions, texture
     /// coordinates and normals.
     pub(super) highest: Counts,
-    /// The relative indices of this part are valid if earlier parts define at least these numbers of positions, texture
+    /// The relative indices of this part are valid if earlier parts define at least this many positions, texture
     /// coordinates and normals.
     pub(super) reach: Counts,
     /// The number of lines that end in this part.

@@ -11,7 +11,7 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::{MAX_COMPARED, PeekMesh, differ};
 
-/// Returns the numbers of vertices, faces and corners of a PLY file, and adds notes on the elements that are left out.
+/// Returns how many vertices, faces and corners a PLY file has, and adds notes on the elements that are left out.
 /// Positions and the vertex indices of faces are not checked.
 ///
 /// # Errors

@@ -144,8 +144,8 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
 /// The names of attributes with their domains.
 type AttributeNames = Vec<(Domain, String)>;
 
-/// Returns the numbers of vertices and triangles of an STL file. If the file is binary, adds notes on bytes that are
-/// left out. The number of vertices is an upper bound, because corners are not compared.
+/// Returns how many vertices and triangles an STL file has. If the file is binary, adds notes on bytes that are left
+/// out. The number of vertices is an upper bound, because corners are not compared.
 ///
 /// # Errors
 ///

@@ -4,8 +4,8 @@
 /// `#[serde(remote = "Self")]`.
 ///
 /// The code that Serde derives is generic over the format. Every crate whose steps have a field of this type would
-/// therefore compile the code again. This macro writes implementations that pass trait objects to the derived code. The
-/// derived code is therefore compiled only once, in this crate.
+/// therefore compile the code again. The implementations that this macro writes call the derived code with trait
+/// objects. The derived code is therefore compiled only once, in this crate.
 macro_rules! compiled_once {
     ($name:ident) => {
         impl<'de> serde::Deserialize<'de> for $name {

@@ -121,8 +121,8 @@ impl<E: EditTarget> EditTarget for [E; 2] {
 /// # Errors
 ///
 /// Returns [`OpError::Cancelled`] if the run was canceled. With [`OnRefusal::Error`], returns the first refusal as the
-/// error. When this function returns an error, some of the elements are possibly already edited. The operation must
-/// return the error, and the caller of the operation undoes the edits.
+/// error. When this function returns an error, some of the elements can already be edited. The operation must return
+/// the error, and the caller of the operation undoes the edits.
 pub fn edit_each<I: EditTarget>(
     mesh: &mut Mesh,
     elements: &[I],

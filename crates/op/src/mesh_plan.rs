@@ -87,7 +87,7 @@ impl MeshPlan {
                 .map(|(domain, c)| PlannedAttribute {
                     domain,
                     name: c.name.clone(),
-                    // An edit that changes the connectivity removes attributes with the rule `Drop`.
+                    // Attributes with the rule `Drop` are removed by the first edit that changes the connectivity.
                     certain: c.rule != Rule::Drop,
                 })
                 .collect(),
@@ -192,7 +192,7 @@ fn missing_element_message(number: u64, count: Range, noun: &str) -> Option<Stri
 }
 
 /// Returns the smallest and the largest possible size of one value of an attribute, in bytes. The smallest size is 0 if
-/// the attribute possibly does not exist.
+/// it is not certain that the attribute exists.
 fn value_bytes(attribute: &PlannedAttribute) -> Range {
     let name = &attribute.name;
     let exactly = |bytes: usize| Range::exactly(bytes as u64);

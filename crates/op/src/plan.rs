@@ -79,13 +79,13 @@ pub struct Plan {
     /// exist, or what their values are.
     pub possible_losses: Vec<Loss>,
     graph: Arc<Graph>,
-    /// Whether an earlier step could not be read or planned. If true, the scene possibly has objects that are missing
-    /// from the plan.
+    /// Whether an earlier step could not be read or planned. If true, some objects of the scene can be missing from the
+    /// plan.
     pub incomplete: bool,
 }
 
 impl Plan {
-    /// Creates the exact plan of an existing scene.
+    /// Creates the plan of an existing scene, with the exact numbers of elements.
     pub fn of(scene: &Scene) -> Self {
         let mut plan = Self {
             graph: Arc::new(scene.graph().clone()),

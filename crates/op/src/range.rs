@@ -41,7 +41,7 @@ impl Range {
         self.min <= n && n <= self.max
     }
 
-    /// Returns the range of the sum of two counts.
+    /// Adds two counts: returns the range of the sum.
     #[must_use]
     pub const fn plus(self, other: Self) -> Self {
         Self {
@@ -64,8 +64,8 @@ impl Range {
         }
     }
 
-    /// Returns the range of this count minus `n`. An end that would be negative is 0. `self.max` must be a known limit,
-    /// not `u64::MAX`.
+    /// Subtracts `n` from the count: returns the range of the difference. An end that would be negative is 0.
+    /// `self.max` must be a known limit, not `u64::MAX`.
     #[must_use]
     pub const fn less(self, n: u64) -> Self {
         Self {
@@ -83,7 +83,7 @@ impl Range {
         }
     }
 
-    /// Returns the range of `n` times this count.
+    /// Multiplies the count by `n`: returns the range of the product.
     #[must_use]
     pub const fn by(self, n: u64) -> Self {
         self.times(Self::exactly(n))

@@ -114,8 +114,8 @@ impl Registry {
         self
     }
 
-    /// Adds an operation that replaces others. First removes every operation whose current name, or one of its earlier
-    /// names, is the name of the new operation.
+    /// Adds an operation that replaces others. First removes every operation that has the name of the new operation, or
+    /// had this name earlier.
     #[must_use]
     pub fn with_override<T: Operation>(mut self) -> Self {
         self.entries

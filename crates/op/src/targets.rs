@@ -10,7 +10,7 @@ use scene::{Geometry, Scene};
 use crate::source::named_object;
 use crate::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range, Report};
 
-/// The words that messages use for an operation and for the kind of objects that it can change.
+/// The words that messages use for an operation, and for the kind of objects that the operation can change.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetKind {
     /// The name of the operation.

@@ -31,7 +31,7 @@ use crate::moved::{Stretch, moved, next};
 pub struct Bend {
     /// The direction of the axis that becomes an arc. The axis goes through the point `about`.
     pub axis: Axis,
-    /// The angle by which the axis turns from `from` to `to`, in degrees. A negative angle bends to the other side.
+    /// The angle by which the axis turns between `from` and `to`, in degrees. A negative angle bends to the other side.
     pub angle: Angle,
     /// The upper end bends in the positive direction of this coordinate axis. If omitted, this is the axis after `axis`
     /// in the order x, y, z, x.

@@ -45,9 +45,9 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// Creates the part from the coordinate `from` to the coordinate `to` of an axis that goes through `about`. If
-    /// `from` is `None`, the part starts at the lowest coordinate of the mesh along the axis. If `to` is `None`, the
-    /// part ends at the highest coordinate.
+    /// Creates a part of the axis that goes through the point `about`. The part starts at the coordinate `from` and
+    /// ends at the coordinate `to`. If `from` is `None`, the part starts at the lowest coordinate of the mesh along the
+    /// axis. If `to` is `None`, the part ends at the highest coordinate.
     pub(crate) const fn new(
         axis: Axis,
         about: Vector,

@@ -172,7 +172,7 @@ fn transform(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpEr
     Ok(())
 }
 
-/// Sets the marks of `faces` to true. Extends `marks` if it has no entries for the newest faces.
+/// Sets the entry of each of the `faces` in `marks` to true. Extends `marks` if it has no entries for the newest faces.
 fn mark(marks: &mut Vec<bool>, faces: &[FaceId]) {
     for f in faces {
         marks.resize(marks.len().max(f.index() + 1), false);

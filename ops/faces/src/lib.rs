@@ -28,7 +28,8 @@ pub fn register(registry: Registry) -> Registry {
         .with::<BevelFaces>()
 }
 
-/// Updates the predicted counts in the plan of a mesh: a ring of quadrilaterals is added inside each of `faces` faces.
+/// Updates the predicted counts of a mesh for an operation that adds a ring of quadrilaterals inside some of the faces.
+/// `faces` is the number of these faces.
 fn plan_rings(plan: &mut MeshPlan, faces: Range) {
     let corners = plan.corners_of(faces);
     plan.grow(corners, corners.by(2), corners);

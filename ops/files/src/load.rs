@@ -274,8 +274,8 @@ fn planned(object: &PeekObject, peek: &PeekMesh, policies: Policies) -> MeshPlan
     provide_uncertain(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
     provide_uncertain(peek.colors, Domain::Vertex, mesh::COLOR.name);
     provide_uncertain(peek.materials, Domain::Face, mesh::MATERIAL.name);
-    // The attributes of joints and morph targets are not certain. The reader can leave out morph targets, and a joint
-    // has weights only if a vertex uses the joint.
+    // It is not certain that the attributes of joints and morph targets exist. The reader can leave out morph targets,
+    // and a joint has weights only if a vertex uses the joint.
     let deformers = |n: u64, name: fn(usize) -> String| {
         let n = usize::try_from(n.min(MAX_PLANNED)).unwrap_or(0);
         (0..n).map(name)

@@ -64,7 +64,7 @@ impl MeshOperation for Cut {
 }
 
 impl Cut {
-    /// Returns those of the `edges` that can be cut together. If an edge cannot be cut, the function returns an error.
+    /// Returns the edges in `edges` that can be cut together. If an edge cannot be cut, the function returns an error.
     /// With `on_refusal: Skip`, it leaves out the edge and counts it in the report instead.
     fn allowed(
         &self,

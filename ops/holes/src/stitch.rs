@@ -73,7 +73,8 @@ impl MeshOperation for Stitch {
             return Ok(report.note("there are no pairs of coinciding boundary edges to join"));
         }
         let edit = |mesh: &mut Mesh, [h, g]: [HalfEdgeId; 2]| {
-            // A pair is possibly already joined, because joining neighboring edges can also join the pair.
+            // Some pairs are already joined here, because joining the neighboring edges of a pair can also join the
+            // pair.
             if is_closed(mesh, h) && is_closed(mesh, g) {
                 return Ok(());
             }

@@ -51,7 +51,7 @@ impl Measure {
     }
 
     /// Whether a step without `on` leaves out `object`, because the quantity is measured relative to this object. For
-    /// example, distances to an object are not measured on the object itself.
+    /// example, a step that measures the distances to an object leaves out this object.
     fn leaves_out(&self, object: &str) -> bool {
         self.of.other().is_some_and(|(other, _)| other == object)
     }

@@ -83,7 +83,7 @@ impl Operation for Join {
             return problems;
         }
         if parts.len() != self.objects.len() {
-            // The missing objects are possibly created by an earlier step that could not be planned.
+            // An earlier step that could not be planned can create the missing objects.
             plan.incomplete = true;
             return problems;
         }

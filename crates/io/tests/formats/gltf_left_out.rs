@@ -333,7 +333,7 @@ fn animated() -> Value {
         json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 0.5 } }]);
     json["skins"] = json!([{ "joints": [1] }]);
     let accessors = json["accessors"].as_array_mut().unwrap();
-    // Two times, 0 and 1, and two translations.
+    // The animation has two keyframes, at the times 0 and 1, and one translation for each keyframe.
     accessors.push(json!({
         "bufferView": 0, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1],
     }));

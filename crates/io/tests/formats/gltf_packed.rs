@@ -224,8 +224,8 @@ fn quantized_positions_are_within_the_reported_error() {
             "{losses:?}"
         );
         let error = packing.position_error.unwrap();
-        // Along each axis, the error is at most half a step of the grid of the largest object. The nodes stretch this
-        // error by a factor of at most 4.
+        // Along each axis, the error is at most half a step of the grid of the largest object. The transforms of the
+        // nodes multiply this error by at most 4.
         let step = 5.4 / f64::from((1 << position) - 1);
         assert!(error < 0.5 * step * 3.0_f64.sqrt() * 4.01, "{error}");
         let objects = read_back(&folder, "a.glb", Placements::Bake).objects;

@@ -35,7 +35,7 @@ fn what_a_written_file_cannot_store_is_a_loss() {
         );
     };
     assert_eq!(losses(&|_| ()), Vec::<String>::new());
-    // The mesh has weights of joints that the skin does not have.
+    // The mesh has weights for a joint that the skin does not have.
     assert_eq!(
         losses(&|s| mesh(s, &|m| set(m, 7, 0.5))),
         ["20 joint weights"]

@@ -1,5 +1,5 @@
 //! Checks that writing a scene and reading it again preserves the scene. The only exceptions are reported losses, and
-//! the changes in a table of the crate documentation.
+//! changes that are listed in a table of the crate documentation.
 
 mod flat;
 mod models;
@@ -214,7 +214,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
             || what.0 == Some(Domain::Vertex) && reported.contains(&as_corners)
             // If unused materials are lost, the indices of the remaining materials change.
             || *what == key(Domain::Face, "material") && reported.contains(&key(None, "materials"));
-        // The entry of the table for one custom attribute also applies to all other custom attributes.
+        // In the table, `heat` stands for all custom attributes.
         let other = key(Domain::Vertex, "heat");
         let is_custom = *difference == Difference::Rounded
             && matches!(what.0, Some(Domain::Vertex | Domain::Corner))
@@ -262,7 +262,8 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     ensure(third.bytes == second.bytes, || {
         "the third file differs from the second".to_owned()
     })?;
-    // If the form of the content changed in the first round trip, the second round trip can write different bytes.
+    // If the first round trip changed the form of the content (for example, a name or the order of the faces), the
+    // second round trip can write different bytes.
     let other_forms = ["name", "domain", "rule", "order of faces"].map(|what| key(None, what));
     let has_other_form = other_forms.iter().any(|what| all.contains_key(what));
     let is_another_form = has_other_form || is_merged || has_empty_columns(objects);

@@ -55,7 +55,7 @@ selection! {
         /// boundary edge follows the boundary instead.
         EdgeLoop(Box<Self>),
         /// The given edges and all edge rings through them. In a face with four corners, an edge ring passes from an
-        /// edge to the opposite edge. The ring ends at the boundary and at faces with a different number of corners.
+        /// edge to the opposite edge. The ring ends at the boundary, and at faces that do not have four corners.
         EdgeRing(Box<Self>),
         /// The shortest path along edges from one vertex to another. Refused if no path exists.
         Path {

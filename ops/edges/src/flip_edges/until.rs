@@ -17,8 +17,8 @@ use crate::flip_edges::goal::{Goal, Quad};
 ///
 /// # Errors
 ///
-/// Returns [`OpError::Cancelled`] if the run was canceled. Some edges have possibly been flipped before the
-/// cancellation.
+/// Returns [`OpError::Cancelled`] if the run was canceled. Edges that were flipped before the cancellation stay
+/// flipped.
 pub(crate) fn flip_until(
     mesh: &mut Mesh,
     edges: &[EdgeId],

@@ -13,8 +13,8 @@ pub(crate) fn too_many(n: u64) -> String {
     )
 }
 
-/// Joins meshes without deleted elements into one mesh without attributes. For each kind of element, the ids of a part
-/// are increased by the number of elements in all earlier parts.
+/// Joins meshes that have no deleted elements into one mesh. The result has no attributes. For each kind of element,
+/// the ids of a part are increased by the number of elements in all earlier parts.
 pub(crate) fn connected(parts: &[&Mesh], cx: &Context) -> Result<Mesh, OpError> {
     let total = |count: fn(&Mesh) -> usize| -> usize { parts.iter().map(|m| count(m)).sum() };
     let n_half_edges = total(Mesh::n_half_edges);

@@ -1,9 +1,9 @@
 //! Joining skinned meshes.
 //!
 //! If all skinned parts have the same skin, and each of them has exactly one node, the joined mesh keeps this skin. The
-//! parts without a skin follow the first joint of this skin. So that these parts do not move in the scene, the inverse
-//! of the map of the first joint is applied to their points. In all other cases, the parts are joined in the pose of
-//! their joints, and the skins are lost.
+//! parts without a skin follow the first joint of this skin. The points of these parts are transformed by the inverse
+//! of the transform of this joint, so that the parts do not move in the scene. In all other cases, the parts are joined
+//! in the pose of their joints, and the skins are lost.
 
 use std::sync::Arc;
 
@@ -27,8 +27,8 @@ pub(super) enum LostSkin {
 pub(super) struct KeptSkin {
     /// The name of the first skinned part. The node and the morph weights of this part are kept.
     pub(super) part: String,
-    /// The map of the first joint. It maps points from bind space to scene space. Bind space is the space in which the
-    /// skin binds points.
+    /// The transform of the first joint. It transforms points from bind space to scene space. Bind space is the space
+    /// in which the skin binds points.
     first_joint: DAffine3,
 }
 

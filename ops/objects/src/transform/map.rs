@@ -24,7 +24,7 @@ impl Map {
         }
     }
 
-    /// Returns the image of a point.
+    /// Transforms a point.
     pub(crate) fn point(&self, p: DVec3, center: DVec3) -> DVec3 {
         if self.only_moves() {
             // If the map neither scales nor rotates, p + shift avoids the rounding error of p - center + center.
@@ -33,18 +33,18 @@ impl Map {
         self.linear * (p - center) + center + self.shift
     }
 
-    /// Returns the image of the vector between two points.
+    /// Transforms the vector between two points.
     pub(crate) fn vector(&self, v: DVec3) -> DVec3 {
         self.linear * v
     }
 
-    /// Returns the image of a unit normal. A zero vector stays zero. If the map mirrors, the normal is negated, because
-    /// a mirror turns the faces over. The mesh is reversed afterwards, which negates the normal again.
+    /// Transforms a unit normal. A zero vector stays zero. If the transform contains a mirror, the normal is negated,
+    /// because a mirror turns the faces over. The mesh is reversed afterwards, which negates the normal again.
     ///
     /// Normals are transformed by the inverse transpose of R S, which is R S^-1 (Turkowski, "Properties of
     /// Surface-Normal Transformations", 1990). Only the direction of the result matters. S^-1 is therefore multiplied
     /// by a number: the smallest absolute scale factor of the axes along which the coordinate of the normal is not 0.
-    /// With this multiplication, no coordinate of the result overflows, and at least one does not underflow.
+    /// Because of this factor, no coordinate of the result overflows, and at least one coordinate does not underflow.
     pub(crate) fn normal(&self, n: DVec3) -> DVec3 {
         let zero = n.cmpeq(DVec3::ZERO);
         if zero.all() {

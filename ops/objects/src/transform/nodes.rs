@@ -5,9 +5,9 @@
 //!   scene <-- P -- parent <-- L -- node <-- points of the object
 //! ```
 //!
-//! L places the node in its parent, and P places the parent in the scene. A map M in scene space moves a point p of the
-//! object from P L p to M P L p. The new placement of the node is therefore P'^-1 M P L, where P' places the parent
-//! after the move. If M also moves the parent, P' = M P, and the placement of the node does not change.
+//! L places the node in its parent, and P places the parent in the scene. A transform M in scene space moves a point p
+//! of the object from P L p to M P L p. The new placement of the node is therefore P'^-1 M P L, where P' places the
+//! parent after the move. If M also moves the parent, P' = M P, and the placement of the node does not change.
 
 use glam::{DAffine3, DVec3};
 use op::{Context, OpError, Plan, PlanContext, Problem, Report};
@@ -27,7 +27,7 @@ impl Transform {
         cx: &Context,
     ) -> Result<Report, OpError> {
         let graph = scene.graph();
-        // For each node, the map in scene space by which the step must move the node.
+        // For each node, the transform in scene space that the step must apply to the node.
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
         let mut n_points = 0;
         let nodes_of = graph.nodes_of_objects();
@@ -156,7 +156,7 @@ fn move_by(graph: &mut Graph, maps: &[Option<DAffine3>], only_moves: bool) -> Re
     let nodes = graph.nodes();
     let mut placements: Vec<Placement> = nodes.iter().map(|node| node.placement).collect();
     let mut new: Vec<DAffine3> = Vec::with_capacity(nodes.len());
-    // For each node, the map in scene space by which the node was moved.
+    // For each node, the transform in scene space that was applied to the node.
     let mut moved: Vec<Option<DAffine3>> = Vec::with_capacity(nodes.len());
     for (i, node) in nodes.iter().enumerate() {
         let of_parent = node.parent.and_then(|parent| moved[parent]);

@@ -352,7 +352,8 @@ impl Flat {
     }
 }
 
-/// Whether an attribute has no values, or only default values of materials or smoothing groups.
+/// Whether an attribute of materials or smoothing groups has only default values. For other attributes: whether the
+/// attribute has no values.
 pub(super) fn has_only_default_values(column: &Column) -> bool {
     match (&column.values, column.name.as_str()) {
         (Values::Int(values), "material") => values.iter().all(|&m| m == -1),
@@ -381,7 +382,7 @@ fn row(values: &Values, i: usize) -> Row {
     }
 }
 
-/// Whether values can have this edit rule. The rule for unit vectors requires vectors of three numbers.
+/// Whether these values can have this edit rule. The rule for unit vectors requires vectors of three numbers.
 pub(super) fn fits(rule: Rule, values: &Values) -> bool {
     rule != Rule::Normal || matches!(values, Values::Vec3(_))
 }

@@ -13,8 +13,8 @@ use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 
 use super::flat::{Key, key};
 
-/// A row of the table: a feature, and objects with this feature. `key` is the difference after a round trip if the
-/// format does not store the feature.
+/// A row of the table: a feature, and objects with this feature. `key` is the part of the objects that differs after a
+/// round trip if the format does not store the feature.
 pub(super) struct Feature {
     pub(super) name: &'static str,
     pub(super) key: Key,
@@ -50,7 +50,7 @@ pub(super) fn column(mesh: &mut Mesh, domain: Domain, name: &str, rule: Rule, va
     mesh.insert_column(domain, column);
 }
 
-/// Returns the base mesh with a column of values.
+/// Returns the base mesh with one more attribute. `value` gives the value of each element.
 fn with<T: Value>(
     domain: Domain,
     name: &str,

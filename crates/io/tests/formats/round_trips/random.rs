@@ -59,7 +59,7 @@ fn number() -> impl Strategy<Value = f64> {
     prop_oneof![any, prop::sample::select(known.to_vec())]
 }
 
-/// A random attribute, whose values are repeated for any number of elements.
+/// A random attribute. Its values are repeated until every element has a value.
 #[derive(Clone, Debug)]
 struct Sketch {
     domain: Domain,

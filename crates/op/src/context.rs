@@ -132,13 +132,14 @@ impl<'a> Context<'a> {
         self.progress
     }
 
-    /// Returns the store of the run, for writing large files. Writes to this store report progress and fail if the run
-    /// is canceled. After such a failure, [`advance`](Self::advance) returns [`OpError::Cancelled`].
+    /// Returns the store of the run, for writing large files. When data is written to this store, progress is reported,
+    /// and the write fails if the run is canceled. After such a failure, [`advance`](Self::advance) returns
+    /// [`OpError::Cancelled`].
     pub fn cancellable_store(&self) -> CancellableStore<'_> {
         CancellableStore::new(&*self.files.store, self.progress)
     }
 
-    /// Returns the object that determines where files are read and written.
+    /// Returns the [`Files`] of the run, which determine where files are read and written.
     pub fn files(&self) -> &Files {
         self.files
     }

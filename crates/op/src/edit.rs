@@ -74,7 +74,7 @@ impl From<Seams> for mesh::Seams {
 
 /// The target of an edit: an element, or a pair of elements.
 pub trait EditTarget: Copy {
-    /// Returns the elements of this target.
+    /// Returns the elements that this target consists of.
     fn elements(self) -> Vec<Element>;
 
     /// Asks the processor to prefetch the memory of the next elements to edit. `at` is the index of the current element

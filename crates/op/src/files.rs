@@ -135,7 +135,7 @@ impl Files {
         self.log.note(FileUse::Read(path.into()));
     }
 
-    /// Logs that a file was read or, if `is_read` is false, that only its existence was checked.
+    /// Logs that a file was read. If `is_read` is false, logs that only the existence of the file was checked.
     pub fn has_used(&self, path: PathBuf, is_read: bool) {
         self.log.note(if is_read {
             FileUse::Read(path)

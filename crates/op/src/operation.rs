@@ -66,8 +66,8 @@ pub trait MeshOperation:
     ///
     /// # Errors
     ///
-    /// Returns an [`OpError`]. When an error is returned, a part of the mesh has possibly already been changed. The
-    /// caller records all changes of the mesh, and undoes them after an error.
+    /// Returns an [`OpError`]. When an error is returned, some elements of the mesh can already be changed. The caller
+    /// records all changes of the mesh, and undoes them after an error.
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError>;
 }
 
@@ -107,8 +107,8 @@ pub trait Operation:
     ///
     /// # Errors
     ///
-    /// Returns an [`OpError`]. When an error is returned, a part of the scene has possibly already been changed. The
-    /// caller then restores the scene to its state before the step.
+    /// Returns an [`OpError`]. When an error is returned, parts of the scene can already be changed. The caller then
+    /// restores the scene to its state before the step.
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
 }
 

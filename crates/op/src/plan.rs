@@ -75,8 +75,8 @@ pub struct Plan {
     /// The data that the current step certainly loses. Lost attributes of changed meshes are not included: the crate
     /// `recipe` finds them by comparing the plans before and after the step.
     pub losses: Vec<Loss>,
-    /// The data that the current step possibly loses. The loss is uncertain because it is unknown whether the data
-    /// exist, or what their values are.
+    /// The data that the current step may lose. The loss is uncertain because it is unknown whether the data exist, or
+    /// what their values are.
     pub possible_losses: Vec<Loss>,
     graph: Arc<Graph>,
     /// Whether an earlier step could not be read or planned. If true, some objects of the scene can be missing from the

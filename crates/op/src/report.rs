@@ -69,7 +69,7 @@ pub struct Loss {
     pub object: String,
     /// The name of the lost data, such as the name of an attribute. Recipes use this name to allow the loss.
     pub name: String,
-    /// The lost data in words.
+    /// A description of the lost data.
     pub what: String,
     /// Why the data was lost. If the reason is empty, `what` is the whole message.
     pub reason: String,
@@ -133,8 +133,7 @@ impl Loss {
         format!("{} may lose {}: {}", self.owner(), self.what, self.reason)
     }
 
-    /// Returns the words for the owner of the lost data in messages: the name of the object in quotation marks, or
-    /// `the scene`.
+    /// Returns how messages name the owner of the lost data: the name of the object in quotation marks, or `the scene`.
     fn owner(&self) -> String {
         match self.object.as_str() {
             "" => "the scene".to_owned(),

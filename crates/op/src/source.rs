@@ -100,8 +100,8 @@ impl<'a> Source<'a> {
         problems
     }
 
-    /// Adds the object at the end of a scene. `make` creates the mesh. It is called only if there are no problems, no
-    /// other object has the name, and the memory is sufficient.
+    /// Adds the object to a scene, after all other objects. `make` creates the mesh. It is called only if there are no
+    /// problems, no other object has the name, and the memory is sufficient.
     ///
     /// # Errors
     ///

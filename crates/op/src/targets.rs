@@ -80,7 +80,7 @@ impl TargetKind {
 }
 
 /// Returns the names of the objects that a step acts on, in the order of the scene. If the step has `on:`, it acts on
-/// the objects named there. Otherwise, it acts on each object for whose geometry `is_wanted` returns true.
+/// the objects named there. Otherwise, it acts on each object if `is_wanted` returns true for its geometry.
 ///
 /// # Errors
 ///

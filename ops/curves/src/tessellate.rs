@@ -117,9 +117,9 @@ impl Operation for Tessellate {
 }
 
 impl Tessellate {
-    /// Returns the plan of the mesh: the number of its elements and its attributes, as predicted before the run.
-    /// `patches` is the number of patches. The counts are upper limits, because collapsed sides and zero-area patches
-    /// give fewer elements.
+    /// Returns the plan of the mesh: the element counts and the attributes, as predicted before the run. `patches` is
+    /// the number of patches. The counts are upper limits, because collapsed sides and zero-area patches give fewer
+    /// elements.
     fn planned(&self, patches: u64) -> MeshPlan {
         let n = u64::from(self.segments.get());
         let at_most = |each| Range::at_most(patches.saturating_mul(each));

@@ -5,7 +5,7 @@ use mesh::{DVec3, VertexId, parallel};
 use op::Axis;
 use op::prelude::*;
 
-/// Moves the vertices whose entry in `mask` is true to new positions, and removes the normals. The report counts the
+/// Moves each vertex to a new position if its entry in `mask` is true. Removes the normals. The report counts the
 /// vertices that moved. `parameters` names the parameters that can make a coordinate too large.
 pub(crate) fn moved(
     mesh: &mut Mesh,

@@ -206,7 +206,7 @@ fn dropped_faces(peek: &Peek, path: &Path) -> Option<Loss> {
     })
 }
 
-/// Converts a note to a loss. In the note, the reader of the file reports that it left out some content.
+/// Converts a note to the record of a loss. In the note, the reader of the file reports that it left out some content.
 fn loss(note: &Note) -> Loss {
     Loss::reading(
         &note.path.display().to_string(),
@@ -216,8 +216,8 @@ fn loss(note: &Note) -> Loss {
     )
 }
 
-/// Converts a note to a change. In the note, the reader of the file reports that it changed a mesh, for example by
-/// splitting a vertex.
+/// Converts a note to the record of a change. In the note, the reader of the file reports that it changed a mesh, for
+/// example by splitting a vertex.
 fn change(note: &Note) -> ReadingChange {
     let vertex = |v: &VertexId| v.index() as u64;
     let elements = note.elements.as_ref().map(|elements| match elements {

@@ -18,7 +18,7 @@ use op::prelude::*;
 /// into several groups. The group that contains the face with the lowest id then keeps the old vertex, and each other
 /// group gets a copy of the vertex. The copies get the highest ids. Faces keep their ids, and no vertex moves. Copies
 /// of vertices and edges have the values of the originals. Corners keep their values. `Stitch` is the inverse
-/// operation: it joins the two sides of a cut again.
+/// operation: it joins the two sides of a cut.
 ///
 /// An edge on the boundary cannot be cut (reason: `Boundary`). An edge also cannot be cut if it touches neither the
 /// boundary nor another edge to cut (reason: `DuplicateEdge`). Both sides of the cut would still join the same two

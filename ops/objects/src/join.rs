@@ -242,8 +242,8 @@ impl Join {
         Ok((object, report))
     }
 
-    /// Returns the plan of the result: its counts and attributes, as predicted before the run. Each entry of `parts`
-    /// contains the plan of a part, and the number of instances of the part in the scene.
+    /// Returns the plan of the result: the element counts and the attributes, as predicted before the run. Each entry
+    /// of `parts` contains the plan of a part, and the number of instances of the part in the scene.
     fn joined_plan(&self, parts: &[(MeshPlan, u64)]) -> MeshPlan {
         let mut joined = parts[0].0.clone();
         let none = Range::exactly(0);
@@ -269,7 +269,8 @@ impl Join {
                 }
             }
         }
-        // If some parts lack an attribute, the result possibly lacks it too, because the step drops incomplete normals.
+        // It is not certain that the result has an attribute if some parts lack this attribute, because the step drops
+        // normals that only some parts have.
         let certain =
             |a: &PlannedAttribute| parts.iter().all(|(part, _)| part.attributes.contains(a));
         for attribute in &mut joined.attributes {

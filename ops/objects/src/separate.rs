@@ -204,7 +204,7 @@ impl Separate {
             .collect()
     }
 
-    /// Replaces the object with the parts. No other object may have the name of a part.
+    /// Replaces the object with the parts. The name of a part must not be the name of another object.
     fn replace(&self, scene: &mut Scene, names: &[String], parts: Vec<Mesh>) {
         let (_, materials) = scene.parts_mut(&self.object).expect("it was found");
         let materials = materials.clone();

@@ -96,7 +96,7 @@ pub enum About {
 }
 
 impl Transform {
-    /// Returns the affine map that the parameters define.
+    /// Returns the affine transform that the parameters define.
     fn map(&self) -> Map {
         Map::new(self.scale.get(), &self.rotate, self.translate.into())
     }

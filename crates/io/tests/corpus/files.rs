@@ -10,7 +10,7 @@ use scene::Scene;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// For each byte of the file, reading can use this number of bytes of memory. [`SMALL`] and, for glTF and COLLADA,
+/// The number of bytes of memory that reading can use for each byte of the file. [`SMALL`] and, for glTF and COLLADA,
 /// [`INSTANCES`] are added to the limit.
 const TIMES: usize = 64;
 

@@ -43,8 +43,8 @@ fn corners(mesh: &Mesh, name: &str) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Returns the positions and attributes at the corners of each triangle. The corners of each triangle are rotated so
-/// that the smallest corner comes first, and the triangles are sorted.
+/// Returns the positions and attributes at the corners of each triangle. The corners of each triangle are listed in
+/// order, starting at the smallest corner. The triangles are sorted.
 fn triangles(mesh: &Mesh) -> Vec<Vec<Vec<f64>>> {
     let half_edges = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
     let corners: Vec<Vec<f64>> = half_edges
@@ -72,7 +72,8 @@ fn triangles(mesh: &Mesh) -> Vec<Vec<Vec<f64>>> {
 fn a_compressed_file_gives_the_same_mesh_as_an_uncompressed_one() {
     let plain = torus("torus_plain.glb");
     assert_eq!((plain.n_vertices(), plain.n_faces()), (12 * 8, 2 * 12 * 8));
-    // The codec for triangles can rotate the corners of a triangle, so the corners are compared after sorting.
+    // The codec for triangles can start a triangle at a different corner, so the function `triangles` rearranges the
+    // corners before they are compared.
     for name in ["torus_ext.glb", "torus_fallback.gltf"] {
         let mesh = torus(name);
         assert_eq!(mesh.positions(), plain.positions());

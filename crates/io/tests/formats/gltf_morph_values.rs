@@ -11,7 +11,7 @@ use crate::gltf_morph_normals::{only_mesh, scene, written};
 use crate::gltf_read::{read_baked, read_json};
 use crate::gltf_rig::Accessors;
 
-/// The texture coordinates of a vertex, its texture coordinates in the second set, and its color.
+/// The values of a vertex: texture coordinates in the first and in the second set, and a color.
 type Row = ([f32; 2], [f32; 2], [f32; 4]);
 
 const OWN: [Row; 6] = [
@@ -23,8 +23,8 @@ const OWN: [Row; 6] = [
     ([0.0, 1.0], [0.5, 0.25], [1.0, 1.0, 0.0, 1.0]),
 ];
 
-/// Changes by a morph target. Their numbers use all bits of a 32-bit float. On the two sides of the seam, the changes
-/// of the texture coordinates differ.
+/// The changes that a morph target adds at each vertex. Their numbers use all bits of a 32-bit float. On the two sides
+/// of the seam, the changes of the texture coordinates differ.
 const CHANGES: [Row; 6] = [
     ([0.1, -0.123_456_79], [0.3, 0.7], [-0.3, 0.1, 0.7, 0.0]),
     ([0.2, 1e-3], [0.3, 0.7], [0.0, -0.9, 0.0, 0.0]),

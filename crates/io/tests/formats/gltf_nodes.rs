@@ -47,8 +47,9 @@ fn asset() -> Value {
     json
 }
 
-/// Converts a document to the tree of its nodes. In this tree, the meshes, cameras and lights replace the references to
-/// them, so the result does not depend on the order and the indices of the parts of the document.
+/// Converts a document to the tree of its nodes. In this tree, each reference to a mesh, camera or light is replaced
+/// with the mesh, camera or light itself. The result therefore does not depend on the order and the indices of the
+/// parts of the document.
 fn canonical(json: &Value) -> Value {
     fn node_tree(json: &Value, i: &Value) -> Value {
         let mut node = json["nodes"][index(i)].clone();

@@ -95,7 +95,7 @@ fn mesh_of(json: &Value) -> Mesh {
     loaded.objects[0].as_mesh().unwrap().as_ref().clone()
 }
 
-/// Returns the triangles, each rotated so that its lowest corner is first.
+/// Returns the triangles. Each triangle is a list of corners that starts at its lowest corner.
 fn rotated_triangles(mesh: &Mesh) -> Vec<Vec<usize>> {
     let mut faces = polygons(mesh);
     for face in &mut faces {

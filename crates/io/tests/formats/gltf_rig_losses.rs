@@ -151,7 +151,7 @@ fn formats_without_skins_get_the_pose_and_report_the_rest() {
     }
 }
 
-/// A loss names the object whose content is lost, even if it is not the first object of the scene.
+/// A loss names the object whose content is lost, even if this object is not the first object of the scene.
 #[test]
 fn lost_morph_weights_name_the_object_of_their_node() {
     let mut scene = Scene::new();

@@ -28,7 +28,7 @@ fn read(store: &Memory, path: &str) -> Loaded {
     mesh_io::read(store, path.as_ref(), &ReadOptions::default()).unwrap()
 }
 
-/// Returns the only image of the materials of a file.
+/// Returns the image that the materials of a file use. There must be exactly one such image.
 fn image(loaded: &Loaded) -> Image {
     let textures: Vec<_> = loaded.objects[0]
         .materials

@@ -1,4 +1,4 @@
-//! Tests of OBJ files as other programs and people write them.
+//! Tests of OBJ files with spellings that other programs and people use.
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Domain, Mesh, UV, VERTEX_NORMAL};

@@ -34,7 +34,7 @@ fn a_line_of_many_libraries_is_cut() {
         "{rest}"
     );
     assert_eq!(notes.len() - 1 + rest.count, names.len());
-    // A file name can contain blanks, so the words of a line can be combined to file names in very many ways.
+    // A file name can contain blanks, so there are very many ways to combine the words of a line into file names.
     let line = format!("mtllib {}\n", "b ".repeat(400));
     read_quickly(&format!("{}{TRIANGLE}", line.repeat(5000)), "newmtl red\n");
 }

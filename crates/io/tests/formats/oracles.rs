@@ -107,7 +107,7 @@ fn another_reader_finds_the_same_facets_in_stl_files() {
     }
 }
 
-/// How a corner is spelled in an OBJ file: whether it has a texture coordinate and a normal, and which of its indices
+/// How a corner is written in an OBJ file: whether it has a texture coordinate and a normal, and which of its indices
 /// are negative.
 #[derive(Clone, Copy, Debug)]
 struct Spelling {

@@ -282,7 +282,8 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     })
 }
 
-/// Whether a mesh has an attribute with this key in which all values are defaults, such as "no material" on every face.
+/// Whether a mesh has an attribute with this key, and all values of the attribute are defaults, such as "no material"
+/// on every face.
 fn has_only_defaults(objects: &[Object], (domain, name): &Key) -> bool {
     let meshes = objects.iter().filter_map(Object::as_mesh);
     let mut columns = meshes.flat_map(|mesh| mesh.attributes().iter());

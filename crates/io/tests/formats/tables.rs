@@ -11,7 +11,7 @@ use store::Disk;
 
 use crate::{Folder, read, scene, write};
 
-/// Returns a square and a triangle beside it, with attributes.
+/// Returns a mesh of a square and a triangle that share an edge. The mesh has attributes.
 fn sheet() -> Mesh {
     let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.1]];
     let points = points.map(|[x, y]| DVec3::new(x, y, -0.5)).to_vec();

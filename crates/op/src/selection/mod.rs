@@ -231,7 +231,7 @@ pub trait Select: Sized + Sync {
         Self::elements(mesh).filter(|id| mask[id.index()])
     }
 
-    /// The word for the elements, in the plural.
+    /// The plural word for the elements: `vertices`, `edges` or `faces`.
     const WORD: &'static str;
 }
 

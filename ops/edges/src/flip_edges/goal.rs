@@ -25,7 +25,7 @@
 //! diagonals give zero-area triangles, and the shorter diagonal is better. Together, these two rules let flips resolve
 //! groups of zero-area triangles.
 //!
-//! **Valence.** The target valence of a vertex is 6 inside and 4 on the boundary. A flip is an improvement if it
+//! **Valence.** The target valence is 6 for inner vertices and 4 for boundary vertices. A flip is an improvement if it
 //! reduces the sum of (valence - target)² over all vertices. Source: Botsch and Kobbelt, "A Remeshing Approach to
 //! Multiresolution Modeling", 2004.
 

@@ -111,8 +111,8 @@ fn an_edge_between_polygons_is_flipped_once_as_planned() {
     assert!(mesh.find_half_edge(v(0), v(1)).is_none());
     assert!(mesh.faces().all(|f| mesh.degree(f) == 4));
     assert_eq!(op::test::counts(&mesh), op::test::counts(&cube));
-    // The two faces have six corners, and a flip moves each end of the edge to the next corner. Six flips bring the
-    // edge back.
+    // The two faces together form a polygon with six corners, and a flip moves each end of the edge to the next corner.
+    // Six flips bring the edge back.
     let e = cube.find_half_edge(v(0), v(1)).unwrap().edge();
     let mut back = mesh;
     for _ in 0..5 {

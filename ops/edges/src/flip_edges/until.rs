@@ -13,7 +13,8 @@ use op::{Context, OpError, Report};
 
 use crate::flip_edges::goal::{Goal, Quad};
 
-/// Calls `flip` for each of the `edges` whose flip improves the mesh according to `goal`, in at most `passes` passes.
+/// Calls `flip` for each edge in `edges` whose flip improves the mesh according to `goal`. `passes` is the largest
+/// number of passes over the edges.
 ///
 /// # Errors
 ///

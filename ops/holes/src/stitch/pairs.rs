@@ -40,8 +40,9 @@ impl Pairs {
         let total = rims.len() as u64;
         cx.advance("find coinciding edges", 0, total)?;
         let mut matches = vec![Matches::None; rims.len()];
-        // The cells around an edge form nine rows of three cells. `begins` contains the index in `rims` at which each
-        // row begins. The edges are visited in the order of their cells, so the indices in `begins` never decrease.
+        // The cells around an edge form nine rows of three cells. For each row, `begins` contains the index in `rims`
+        // at which the edges of the row begin. The edges are visited in the order of their cells, so the indices in
+        // `begins` never decrease.
         let mut begins = [0; 9];
         for (i, rim) in rims.iter().enumerate() {
             matches[rim.number] = matches_of(&rims, rim, &mut begins, distance);

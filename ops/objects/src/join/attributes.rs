@@ -23,9 +23,9 @@ pub(crate) fn merged_materials(parts: &[&Object]) -> (Vec<Material>, Vec<Vec<i32
     (merged, numbers)
 }
 
-/// Returns the attribute columns of the joined mesh: the concatenated columns of all parts. `numbers` comes from
-/// [`merged_materials`]. Adds a loss to the report for each dropped column, and a note for each part that gets zero
-/// values.
+/// Returns the attribute columns of the joined mesh: the concatenated columns of all parts. `numbers` contains the new
+/// material indices that [`merged_materials`] returns. Adds a loss to the report for each dropped column, and a note
+/// for each part that gets zero values.
 pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Report) -> Attributes {
     let meshes = || {
         let parts = parts.iter();
@@ -127,7 +127,7 @@ fn names(columns: &[Attributes], predicate: impl Fn(&Column) -> bool) -> Vec<(Do
     names
 }
 
-/// Whether part `i` lacks the attribute `name` in this domain although it has elements of the domain.
+/// Whether part `i` has elements of this domain, but lacks the attribute `name` for them.
 fn lacks(columns: &[Attributes], parts: &[&Object], i: usize, domain: Domain, name: &str) -> bool {
     let n = parts[i].as_mesh().map_or(0, |mesh| mesh.domain_len(domain));
     n > 0 && columns[i].column(domain, name).is_none()

@@ -1,9 +1,9 @@
-//! The affine map that the parameters of `Transform` define, for points and normals.
+//! The affine transform that the parameters of `Transform` define, for points and normals.
 
 use glam::{DAffine3, DMat3, DVec3};
 use op::Turn;
 
-/// The map p -> L (p - center) + center + shift, where L scales and then rotates. The methods take `center` as an
+/// The transform p -> L (p - center) + center + shift, where L scales and then rotates. The methods take `center` as an
 /// argument.
 pub(crate) struct Map {
     linear: DMat3,
@@ -13,7 +13,7 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    /// Creates the map that scales by `scale`, then rotates by `rotate`, and then moves by `shift`.
+    /// Creates the transform that scales by `scale`, then rotates by `rotate`, and then moves by `shift`.
     pub(crate) fn new(scale: DVec3, rotate: &[Turn], shift: DVec3) -> Self {
         let turns = Turn::all(rotate);
         Self {
@@ -27,7 +27,7 @@ impl Map {
     /// Transforms a point.
     pub(crate) fn point(&self, p: DVec3, center: DVec3) -> DVec3 {
         if self.only_moves() {
-            // If the map neither scales nor rotates, p + shift avoids the rounding error of p - center + center.
+            // If the transform neither scales nor rotates, p + shift avoids the rounding error of p - center + center.
             return p + self.shift;
         }
         self.linear * (p - center) + center + self.shift
@@ -57,7 +57,7 @@ impl Map {
         (image / image.abs().max_element()).normalize()
     }
 
-    /// Returns the affine map whose fixed point of scaling and rotation is `center`.
+    /// Returns the affine transform that scales and rotates about the point `center`.
     pub(crate) fn affine(&self, center: DVec3) -> DAffine3 {
         DAffine3 {
             matrix3: self.linear,
@@ -65,23 +65,23 @@ impl Map {
         }
     }
 
-    /// Returns the linear part of the map.
+    /// Returns the linear part of the transform.
     pub(crate) fn linear(&self) -> &DMat3 {
         &self.linear
     }
 
-    /// Whether points are neither scaled nor rotated.
+    /// Whether the transform only moves points, without scaling and rotation.
     pub(crate) fn only_moves(&self) -> bool {
         self.linear == DMat3::IDENTITY
     }
 
-    /// Whether the map reverses orientation.
+    /// Whether the transform reverses orientation.
     pub(crate) fn mirrors(&self) -> bool {
         let DVec3 { x, y, z } = self.scale;
         (x < 0.0) ^ (y < 0.0) ^ (z < 0.0)
     }
 
-    /// Returns the z coordinate of the image of the plane z = 0, or `None` if this coordinate is not constant.
+    /// Transforms the plane z = 0, and returns its new z coordinate; `None` if this coordinate is not constant.
     pub(crate) fn height_of_plane(&self, center: DVec3) -> Option<f64> {
         let level = self.linear.x_axis.z == 0.0 && self.linear.y_axis.z == 0.0;
         level.then(|| self.point(DVec3::new(center.x, center.y, 0.0), center).z)

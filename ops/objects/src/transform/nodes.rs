@@ -117,7 +117,7 @@ impl Transform {
     }
 }
 
-/// Sets the map of each root of the graph (a node without a parent) to `affine`.
+/// Sets the entry in `maps` of each root of the graph (a node without a parent) to `affine`.
 fn move_roots(graph: &Graph, maps: &mut [Option<DAffine3>], affine: &DAffine3) {
     for (map, node) in maps.iter_mut().zip(graph.nodes()) {
         if node.parent.is_none() {
@@ -149,8 +149,8 @@ fn insert_parents(graph: &mut Graph, maps: &mut Vec<Option<DAffine3>>) -> usize 
     maps.len() - before
 }
 
-/// Moves each node by its entry in `maps`, which is an affine map in scene space. A node whose entry is `None` moves
-/// with its parent. If `only_moves` is set, the maps neither scale nor rotate.
+/// Moves each node by its entry in `maps`, which is an affine transform in scene space. A node whose entry is `None`
+/// moves with its parent. If `only_moves` is set, the transforms in `maps` neither scale nor rotate.
 fn move_by(graph: &mut Graph, maps: &[Option<DAffine3>], only_moves: bool) -> Result<(), OpError> {
     let old = graph.to_scene();
     let nodes = graph.nodes();

@@ -7,9 +7,9 @@ use glam::DVec3;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Image, Material, Object};
 
-/// The part of an object that differs. If the key has a domain, the part is the positions or the attribute with this
-/// name. Otherwise, it is another part of the object, such as its materials. The names are the same as in reported
-/// losses.
+/// The part of an object that differs. A key with a domain stands for the positions or for an attribute: the name says
+/// which of them. A key without a domain stands for another part of the object, such as its materials. The names are
+/// the same as in reported losses.
 pub(super) type Key = (Option<Domain>, String);
 
 /// The kind of difference between two scenes.
@@ -27,7 +27,7 @@ pub(super) fn key(domain: impl Into<Option<Domain>>, name: &str) -> Key {
     (domain.into(), name.to_owned())
 }
 
-/// The bits of the numbers of a value.
+/// An attribute value or a position: the bits of each of its numbers.
 type Row = Vec<u64>;
 
 /// The type of attribute values, and the rule by which edits change them.
@@ -39,7 +39,7 @@ struct Flat {
     positions: Vec<Row>,
     faces: Vec<Vec<usize>>,
     columns: BTreeMap<Key, (Kind, Vec<Row>)>,
-    /// For each edge, its lower and its higher vertex, and the index of its values.
+    /// For each edge, its vertex with the lower id, its vertex with the higher id, and the index of its values.
     edges: Vec<([usize; 2], usize)>,
 }
 
@@ -304,7 +304,7 @@ impl Flat {
                 Some(*end - face.len())
             })
             .collect();
-        // The corners of each face, rotated so that the lowest vertex comes first.
+        // The corners of each face, in order, starting at the lowest vertex.
         let mut turned: Vec<(Vec<usize>, Vec<usize>, usize)> = Vec::new();
         for (f, face) in self.faces.iter().enumerate() {
             let n = face.len();

@@ -24,7 +24,7 @@ const FORMATS: [&str; 7] = ["obj", "glb", "ply", "stl", "off", "bez", "bzc"];
 /// The table in the documentation of the crate.
 const TABLE: &str = include_str!("../../src/kept.md");
 
-/// The result of a round trip for some content.
+/// What happens to some content in a round trip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
     /// The content is restored bit for bit.

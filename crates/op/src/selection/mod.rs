@@ -389,7 +389,7 @@ fn not<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     marks::<S>(mesh, |id| !mask[id.index()])
 }
 
-/// Returns a mask of the vertices of the marked elements.
+/// Returns a mask of the vertices that belong to at least one marked element.
 fn touched<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     let mut vertices = vec![false; mesh.domain_len(Domain::Vertex)];
     for v in S::marked(mesh, mask).flat_map(|id| S::vertices(mesh, id)) {

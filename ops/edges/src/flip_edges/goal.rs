@@ -34,7 +34,7 @@ use std::ops::Range;
 use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
 /// A triangle counts as a zero-area triangle if its height is less than this fraction of its size. The computed area of
-/// such a triangle is only rounding error.
+/// such a triangle consists only of rounding errors.
 const NO_AREA: f64 = 1e-14;
 
 /// The energy of a triangle is computed only if the sum of its squared side lengths is in this range. Products of four
@@ -45,14 +45,14 @@ const SIZES: Range<f64> = 1e-120..1e120;
 /// in a square, the diagonal is therefore not flipped.
 const TIE: f64 = 1e-12;
 
-/// The energies of two zero-area triangles.
+/// The energies of two triangles that both have no area.
 const BOTH_WITHOUT_AREA: [f64; 2] = [f64::INFINITY; 2];
 
-/// The goal of flips.
+/// What the flips try to reach.
 pub(crate) enum Goal {
-    /// The lowest possible sum of the cotangents of all angles.
+    /// A sum of the cotangents of all angles that is as low as possible.
     Delaunay,
-    /// Valences close to their targets. The target is 6 for inner vertices and 4 for boundary vertices.
+    /// Valences that are close to their targets. The target is 6 for inner vertices and 4 for boundary vertices.
     Valence {
         /// For each vertex, its valence minus its target.
         excess: Vec<i32>,

@@ -2,7 +2,8 @@
 //!
 //! Edges are sorted into a grid of cubic cells by their midpoints. If two edges coincide, their midpoints are also
 //! close together. An edge is therefore compared only with the edges in its cell and the 26 neighboring cells. The
-//! edges are visited in the order of their cells, so that the neighboring cells are found without searching.
+//! edges are visited in the order of their cells, so that the edges in the neighboring cells are found without a
+//! search.
 
 use mesh::{DVec3, HalfEdgeId, Mesh};
 use op::{Context, OpError};
@@ -15,7 +16,7 @@ pub(crate) struct Pairs {
     pub(crate) ambiguous: Vec<HalfEdgeId>,
 }
 
-/// A boundary half-edge with its ends and its cell of the grid.
+/// A boundary half-edge, the positions of its ends, and the grid cell that contains its midpoint.
 #[derive(Clone, Copy)]
 struct Rim {
     cell: [i64; 3],
@@ -67,7 +68,7 @@ impl Pairs {
     }
 }
 
-/// Returns the boundary half-edges with their ends, sorted by the cells of their midpoints.
+/// Returns the boundary half-edges, sorted by the grid cells that contain the midpoints of the half-edges.
 fn sorted_rims(
     mesh: &Mesh,
     outer: &[HalfEdgeId],
@@ -107,7 +108,8 @@ fn sorted_rims(
     }
 }
 
-/// Returns the indices of the cell that contains the point `place`. The unit of `place` is the side length of a cell.
+/// Returns the indices of the grid cell that contains the point `place`. The unit of `place` is the side length of a
+/// cell.
 #[expect(clippy::cast_possible_truncation, reason = "at most 1e12")]
 fn cell(place: DVec3) -> [i64; 3] {
     // The limit of 1e12 applies only if the extent of the mesh overflows. The coordinate `x` is then NaN, and `min`

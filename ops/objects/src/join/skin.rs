@@ -2,8 +2,8 @@
 //!
 //! If all skinned parts have the same skin, and each of them has exactly one node, the joined mesh keeps this skin. The
 //! parts without a skin follow the first joint of this skin. The points of these parts are transformed by the inverse
-//! of the transform of this joint, so that the parts do not move in the scene. In all other cases, the parts are joined
-//! in the pose of their joints, and the skins are lost.
+//! of the transform of the first joint, so that the parts do not move in the scene. In all other cases, the parts are
+//! joined in the pose of their joints, and the skins are lost.
 
 use std::sync::Arc;
 

@@ -42,7 +42,8 @@ fn irregularity(mesh: &Mesh) -> u64 {
     squares.sum()
 }
 
-/// Whether the flip of `e`, which turned `old` into `new`, is an improvement and does not fold the surface.
+/// Whether a flip is an improvement and does not fold the surface. `old` is the mesh before the flip of the edge `e`,
+/// and `new` is the mesh after the flip.
 fn is_better(until: Until, e: EdgeId, new: &Mesh, old: &Mesh) -> bool {
     let areas = |mesh: &Mesh| mesh.edge_faces(e).map(|f| mesh.area_vector(f.unwrap()));
     let [n, m] = areas(new);

@@ -28,7 +28,7 @@ pub struct MeshPlan {
     pub edges: Range,
     /// The number of faces.
     pub faces: Range,
-    /// The range of the degrees of the faces. The degree of a face is its number of corners.
+    /// The lowest and the highest possible degree of a face. The degree of a face is its number of corners.
     pub degrees: Range,
     /// The known attributes.
     pub attributes: Vec<PlannedAttribute>,

@@ -43,7 +43,7 @@ pub enum DisplaceBy {
     /// Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002). At a vertex, the value depends only on the position
     /// of the vertex, so vertices at the same position have the same value.
     Noise {
-        /// The size of the waves, in scene units.
+        /// The size of the waves of the noise, in scene units.
         scale: PositiveLength,
         /// The seed. A different seed gives different noise. The same seed gives the same noise in every step. Defaults
         /// to 0.
@@ -68,7 +68,7 @@ pub enum DisplaceBy {
     /// is repeated. A vertex on a seam has several texture coordinates; its value is the mean of the values at its
     /// corners. Gray PNG files with 16 bits per pixel give smoother surfaces than files with 8 bits.
     Image {
-        /// The PNG or JPEG file. A relative path is relative to the folder of the recipe.
+        /// The path of the PNG or JPEG file. A relative path is relative to the folder of the recipe.
         path: String,
         /// The name of the attribute that holds the texture coordinates. Defaults to `uv`.
         #[serde(default = "uv")]

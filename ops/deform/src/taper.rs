@@ -27,7 +27,7 @@ use crate::moved::{Stretch, moved, next};
 pub struct Taper {
     /// The direction of the axis. The axis goes through the point `about`, and points on the axis do not move.
     pub axis: Axis,
-    /// The factor at `to`. More than 0. A factor below 1 makes the upper end narrower.
+    /// The scale factor at the coordinate `to`. More than 0. A factor below 1 makes the upper end narrower.
     pub factor: PositiveFactor,
     /// A point on the axis. The coordinate of the point along the axis does not matter.
     #[serde(default)]

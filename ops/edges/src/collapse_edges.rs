@@ -65,8 +65,8 @@ impl MeshOperation for CollapseEdges {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let selected = self.edges.count(plan);
         let n = self.on_refusal.done(selected);
-        // A triangle beside the edge is removed, and its two other edges become one. A larger face beside the
-        // edge stays.
+        // A triangle beside the edge is removed, and its two other edges become one. A face beside the edge with more
+        // than three corners is not removed.
         let least = u64::from(plan.is_triangles());
         let faces = n.times(Range { min: least, max: 2 });
         plan.vertices = plan.vertices.minus(n);

@@ -55,7 +55,7 @@ pub struct Transform {
     /// The distances to move along x, y and z, in scene units.
     #[serde(default, rename = "move")]
     pub translate: Vector,
-    /// The fixed point of scaling and rotation.
+    /// The point that scaling and rotation do not move.
     #[serde(default)]
     pub about: About,
     /// The coordinate system in which objects are scaled, rotated and moved.
@@ -80,7 +80,7 @@ const fn ones() -> Factors {
     Factors::literal(1.0, 1.0, 1.0)
 }
 
-/// The fixed point of scaling and rotation.
+/// The point that scaling and rotation do not move.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum About {
@@ -101,7 +101,7 @@ impl Transform {
         Map::new(self.scale.get(), &self.rotate, self.translate.into())
     }
 
-    /// Returns the fixed point of scaling and rotation. `points` are the points of the object.
+    /// Returns the point that scaling and rotation do not move. `points` are the points of the object.
     fn center(&self, points: impl Iterator<Item = DVec3>) -> DVec3 {
         match self.about {
             About::Origin => DVec3::ZERO,

@@ -20,7 +20,7 @@ selection! {
     ) {
         /// Boundary edges: edges with a face on one side only.
         Boundary,
-        /// The edge between two vertices, given by their ids. Refused if no edge joins these two vertices.
+        /// The edge that joins the two vertices with these ids. Refused if no edge joins these two vertices.
         Between(u32, u32),
         /// Edges at which the normals of the two faces differ by more than the angle `above`.
         Sharp {

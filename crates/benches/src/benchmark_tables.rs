@@ -76,9 +76,9 @@ fn main() -> std::io::Result<()> {
 }
 
 /// Returns the reference time of `row`: the seconds that one thread takes to copy, read or write the same bytes,
-/// without other work. The reference time is in another row of the same group, the reference row. The name of the
-/// reference row contains `bytes alone`, and starts with `bytes` or with the first word of the name of `row`. Returns
-/// `None` if there is no reference time, or if `row` is itself a reference row.
+/// without other work. This time is stored in another row of the same group, which is called the reference row. The
+/// name of the reference row contains `bytes alone`, and starts with `bytes` or with the first word of the name of
+/// `row`. Returns `None` if there is no reference time, or if `row` is itself a reference row.
 fn reference(row: &Row, rows: &[Row]) -> Option<f64> {
     let is_bytes = |row: &Row| row.name.contains("bytes alone");
     let word = row.name.split([' ', ',']).next()?;

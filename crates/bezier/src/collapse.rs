@@ -87,7 +87,7 @@ impl Sides {
         let n = u64::from(segments);
         let square = |x: u64| x.saturating_mul(x);
         let collapsed = self.collapsed.iter().filter(|&&side| side).count() as u64;
-        // The number of corners of the patch at which two collapsed sides meet.
+        // The number of patch corners at which two collapsed sides meet.
         let corners = (0..4)
             .filter(|&a| self.collapsed[a] && self.collapsed[(a + 1) % 4])
             .count();

@@ -18,9 +18,9 @@ use crate::{BezierError, Point};
 
 /// The largest number of control points of a [`Curve`].
 ///
-/// For n control points, the levels of de Casteljau's algorithm have n (n + 1) / 2 points. With at most `MAX_POINTS`
-/// control points, one evaluation takes at most about 8 million steps, and [`Curve::levels`] takes at most about 200 MB
-/// of memory.
+/// For n control points, all levels of de Casteljau's algorithm together have n (n + 1) / 2 points. With at most
+/// `MAX_POINTS` control points, one evaluation takes at most about 8 million steps, and [`Curve::levels`] takes at most
+/// about 200 MB of memory.
 pub const MAX_POINTS: usize = 4096;
 
 /// A Bezier curve of degree n, given by n + 1 control points.

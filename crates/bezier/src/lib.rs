@@ -6,8 +6,9 @@
 //! - A **Bezier curve** c(t) of degree n has n + 1 *control points* `p_i`. The point c(t) is a weighted mean of the
 //!   control points: the sum of `p_i B(n, i)(t)`, where B(n, i) are the Bernstein polynomials. See [`Curve`], in 2D and
 //!   3D.
-//! - **De Casteljau's algorithm** computes c(t) in levels. The points of a level are joined by legs. Each point of the
-//!   next level divides one leg in the ratio t : 1 - t. See [`one_step`] and [`Curve::levels`].
+//! - **De Casteljau's algorithm** computes c(t) in levels. The line segments between consecutive points of a level are
+//!   called legs. Each point of the next level divides one leg in the ratio t : 1 - t. See [`one_step`] and
+//!   [`Curve::levels`].
 //! - A **bicubic patch** s(u, v) has 4 by 4 control points: u runs along the rows, v across them. Each row defines a
 //!   cubic curve in u. For a given u, the four points of these curves are the control points of a cubic curve in v. See
 //!   [`Patch`].

@@ -46,7 +46,7 @@ use glam::{DVec2, DVec3};
 pub const VANISHING: f64 = 1e-10;
 
 /// Returns the limit of the normals along a line from `uv` into the patch. Up to three lines are tried. Returns `None`
-/// if the normals are zero along all of them.
+/// if the normals are zero along all three lines.
 ///
 /// `c` contains the Taylor coefficients of the patch at `uv`: c\[i\]\[j\] is the coefficient of x^i y^j. `max_steps` is
 /// the result of [`Patch::max_steps`](crate::Patch), which must not be zero.

@@ -26,9 +26,9 @@
 //! sides become a vertex at the start of the first of these sides. The UV and the normal of this vertex are the values
 //! at the middle of the first side.
 //!
-//! A patch is a curve or a point if all its rows of control points are the same, or all its columns. The tolerance is
-//! the same as for collapsed sides. If a patch is a curve or a point, or if none of its cells becomes a face, its
-//! tessellation has no vertices and no faces. The result lists these patches.
+//! A patch is a curve or a point if all its rows of control points are the same or all its columns are the same. The
+//! tolerance is the same as for collapsed sides. If a patch is a curve or a point, or if none of its cells becomes a
+//! face, its tessellation has no vertices and no faces. The result lists these patches.
 //!
 //! The tessellation detects collapsed sides, and patches that are a curve or a point. It detects no other degeneracies.
 //! Faces can have zero area if a patch folds onto itself. With too few segments, the corners of a cell can be
@@ -123,8 +123,8 @@ struct PatchTessellator<'a> {
     sides: Sides,
     /// See [`Patch::max_steps`].
     max_steps: DVec2,
-    /// For the first side of each chain of adjacent collapsed sides, the vertex that the chain becomes. `None` until
-    /// the vertex is added.
+    /// Each chain of adjacent collapsed sides becomes one vertex, whose id is stored at the first side of the chain.
+    /// `None` until the vertex is added.
     collapsed: [Option<u32>; 4],
 }
 

@@ -91,8 +91,8 @@ fn store_bytes(folder: &Folder, blob: BlobRef, bytes: &[u8]) -> bool {
         })
 }
 
-/// Whether a blob is already stored. If it is stored, also marks the blob as used. The content of a blob is checked
-/// only when the blob is read.
+/// Whether a blob is already stored. Also marks a stored blob as used. The content of a blob is checked only when the
+/// blob is read.
 fn is_stored(folder: &Folder, blob: &BlobRef) -> bool {
     let exists = exists(folder, blob);
     if exists {

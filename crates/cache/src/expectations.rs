@@ -19,8 +19,8 @@ pub(crate) struct MetExpectation {
 }
 
 impl MetExpectation {
-    /// Records an expectation, with the files that it has read or looked for. Returns `None` if the state of a file
-    /// cannot be determined.
+    /// Records an expectation, and the files that were read or looked for when it was checked. Returns `None` if the
+    /// state of a file cannot be determined.
     pub(crate) fn new(
         placed: &RecipeExpectation,
         uses: &[FileUse],
@@ -33,8 +33,7 @@ impl MetExpectation {
     }
 }
 
-/// Whether `met` contains the expectation, and the input files of the expectation have not changed since it was
-/// recorded.
+/// Whether `met` contains the expectation, and none of its input files has changed since it was recorded.
 pub(crate) fn is_known_to_hold(
     met: &[MetExpectation],
     placed: &RecipeExpectation,

@@ -14,7 +14,7 @@ pub(crate) type Hash = [u8; 32];
 
 /// The size of a piece, in bytes. Files larger than a piece are read and hashed piece by piece on several threads.
 const PIECE: usize = 4 << 20;
-/// If a file was last marked as used less than this time ago, it is not marked again.
+/// After a file was marked as used, it is not marked again during this time.
 const TOUCH_INTERVAL: Duration = Duration::from_secs(3600);
 
 /// Kinds of files. Each kind has its own folder.
@@ -176,8 +176,8 @@ impl Folder {
         let _ = fs::remove_file(path);
     }
 
-    /// Marks a file as used and returns true. If the file cannot be opened, or was last marked as used less than
-    /// [`TOUCH_INTERVAL`] ago, returns false and does nothing.
+    /// Marks a file as used and returns true. Does nothing and returns false if the file cannot be opened, or was
+    /// marked as used within the last [`TOUCH_INTERVAL`].
     pub(crate) fn touch(path: &Path) -> bool {
         let now = SystemTime::now();
         let Ok(file) = File::open(path) else {

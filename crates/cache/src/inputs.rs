@@ -147,7 +147,8 @@ impl FileChecker {
     }
 }
 
-/// Reads a path, and returns its state: `Content` or `Missing`. Returns `None` if the file cannot be read.
+/// Reads the file at a path, and returns the state of the path: `Content` or `Missing`. Returns `None` if the file
+/// cannot be read.
 fn content_of(path: &Path) -> Option<PathState> {
     if !path.is_file() {
         return Some(PathState::Missing);

@@ -13,10 +13,10 @@
 //! result. The key depends on the program, the operation with its version and parameters, and the objects in the field
 //! `on` of the step. The key also depends on the label of the step (which seeds random choices), the memory budget, and
 //! the state of the scene before the step. If the recipe expects that the step is refused, the key depends on the
-//! expected reason, too. The state of the scene after a step is a digest of the key of the step and of the files that
-//! the step read or looked for. The files that a step reads are known only after the step has run. Before the cached
-//! result of a step is used, the current digest of each file that the step read is compared with the recorded digest.
-//! The modification times of the files are not compared.
+//! expected reason, too. The state of the scene after a step is a digest of two things: the key of the step, and the
+//! files that the step read or looked for. The files that a step reads are known only after the step has run. Before
+//! the cached result of a step is used, the current digest of each file that the step read is compared with the
+//! recorded digest. The modification times of the files are not compared.
 //!
 //! **Integrity.** In its folder, the cache reads only regular files, no links, and reads each file only up to a maximum
 //! length. Every blob must match the digest in its name. Every record must match its digest, which depends on the
@@ -32,11 +32,10 @@
 //! scenes, and all output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored
 //! if storing it takes no longer than the steps that ran since a scene was last stored or loaded. The time for storing
 //! is estimated from [`BYTES_PER_SECOND`]. Therefore, even a run that stores all of its results takes at most about
-//! twice as long as a run without the cache. If a scene without gaps is not stored, computing the scene again in a
-//! later run takes at most as long as storing it would have taken. Larger output files are stored if storing them takes
-//! at most as long as running the step and loading its scene. If several scenes contain the same long array, the array
-//! is stored only once. Therefore, if a step changes one attribute of a large mesh, only this attribute is added to the
-//! cache.
+//! twice as long as a run without the cache. If storing a scene would take longer than computing it, the scene is not
+//! stored, and a later run computes it again. Larger output files are stored if storing them takes at most as long as
+//! loading the scene and running the step again. If several scenes contain the same long array, the array is stored
+//! only once. Therefore, if a step changes one attribute of a large mesh, only this attribute is added to the cache.
 //!
 //! **Size.** At the end of a run that has stored something, the cache adds the number of stored bytes to its recorded
 //! size. If the new size exceeds the size limit, or if the recorded size is unknown, all files of the cache are listed.
@@ -129,7 +128,7 @@ impl Cache {
         self.limit
     }
 
-    /// Returns the problem that prevents the cache from storing anything, if one has occurred.
+    /// If a problem prevents the cache from storing anything, returns this problem.
     pub fn problem(&self) -> Option<&str> {
         self.folder.problem()
     }

@@ -305,9 +305,9 @@ impl<'a> Session<'a> {
         Err(first.unwrap_or(RerunReason::Gone))
     }
 
-    /// Checks that running a step now would still give its recorded result. If the result would be the same and a stage
-    /// is given, restores the output files of the step into the stage. The stage is the folder that collects output
-    /// files until the run succeeds.
+    /// Checks that running a step now would still give its recorded result. If the result would be the same, restores
+    /// the output files of the step into the folder `stage`, if it is given. This folder collects output files until
+    /// the run succeeds.
     fn use_record(
         &mut self,
         record: &Record,

@@ -469,7 +469,8 @@ fn a_large_scene_that_is_fast_to_compute_may_be_computed_again() {
     let place = Place::new();
     let text = steps("Sheet(columns: 60000), Write(path: \"a.txt\")");
     place.run(&text);
-    // On a fast machine, the scene is possibly not stored. The outcome is the same in both cases.
+    // On a fast machine, storing the scene can take longer than computing it. The scene is then not stored, but the
+    // outcome is the same.
     let more = text.replace("])", ", Sheet(columns: 1, name: \"b\")])");
     let outcome = place.run(&more);
     assert_eq!(outcome.steps.len(), 3);

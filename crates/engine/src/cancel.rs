@@ -5,18 +5,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use op::Progress;
 use recipe::Listener;
 
-/// A listener that ignores all events. Once [`set`](Self::set) is called, the listener cancels the runs that it listens
-/// to.
+/// A listener that ignores all events. Once [`set`](Self::set) is called, all runs that use this listener are canceled.
 #[derive(Debug, Default)]
 pub struct Cancel(AtomicBool);
 
 impl Cancel {
-    /// Returns a listener that cancels its runs only after [`set`](Self::set) is called.
+    /// Returns a listener that cancels no run until [`set`](Self::set) is called.
     pub const fn new() -> Self {
         Self(AtomicBool::new(false))
     }
 
-    /// Cancels all runs that this listener listens to. Returns whether [`set`](Self::set) was called before.
+    /// Cancels all runs that use this listener. Returns whether [`set`](Self::set) was called before.
     pub fn set(&self) -> bool {
         self.0.swap(true, Ordering::Relaxed)
     }

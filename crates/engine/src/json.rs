@@ -78,7 +78,7 @@ pub fn step_done(number: usize, done: &StepDone) -> Json {
 }
 
 /// Converts a change of a mesh to JSON. The change was made while the file of the mesh was read. The field `text` names
-/// only some of the changed elements. The field `vertices`, `edges` or `faces` lists all of them.
+/// only some of the changed elements. The field `vertices`, `edges` or `faces` lists all changed elements.
 fn change(change: &ReadingChange) -> Json {
     let mut json = json!({
         "code": change.code, "count": change.count, "text": change.message,

@@ -36,7 +36,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-/// Tests the examples in the book's chapter about the library: they run as documentation tests.
+/// Runs the examples in the book's chapter about the library as documentation tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../../book/src/library.md")]
 struct Library;

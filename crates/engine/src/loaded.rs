@@ -71,8 +71,8 @@ impl Loaded {
         recipe::run_from(&self.recipe, first, scene, settings, listener)
     }
 
-    /// Runs the steps before the step with this index and returns the scene. Returns `None` if one of these steps fails
-    /// or the run is canceled.
+    /// Runs all steps before the step with the index `step`, and returns the resulting scene. Returns `None` if one of
+    /// these steps fails or the run is canceled.
     pub fn scene_before(&mut self, step: usize, listener: &dyn Listener) -> Option<Scene> {
         let later = self.recipe.steps.split_off(step);
         let expectations = std::mem::take(&mut self.recipe.expectations);

@@ -113,8 +113,9 @@ pub(crate) const GRAPH: &str = "graph";
 
 /// The first string of the canonical form. The string contains the version of the canonical form.
 pub(crate) const FORM: &str = "meshwright scene 1";
-/// The marker that precedes the optional properties of a material. In place of the marker, the form can contain the
-/// length of a string. A decoder cannot confuse the two, because no string has `u64::MAX` bytes.
+/// The marker that precedes the optional parts of a material, such as its extras. Where the marker is missing, the form
+/// ends or continues with the length of a string or list. This length is never `u64::MAX`, so a decoder cannot confuse
+/// it with the marker.
 pub(crate) const MORE: u64 = u64::MAX;
 
 /// The name of a texture in the canonical form, and a function that returns the field of a material for this texture.
@@ -175,7 +176,7 @@ fn named_numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
 }
 
 pub(crate) struct Encoder<'a> {
-    /// A function that receives bytes, and a flag that is true if the bytes are the content of an array.
+    /// A function with two arguments: bytes, and a flag that is true if the bytes are the content of an array.
     sink: &'a mut dyn FnMut(&[u8], bool),
 }
 
@@ -348,7 +349,7 @@ impl Encoder<'_> {
     }
 }
 
-/// Whether a texture has a path that is not empty, and no other properties.
+/// Whether a texture has only one property: a path, which is not empty.
 fn is_only_path(texture: &Texture) -> bool {
     texture
         .path()

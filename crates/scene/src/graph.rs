@@ -7,9 +7,9 @@
 //! ```
 //!
 //! A mesh has coordinates in its own space. The placement of a node is an affine map from the space of the node to the
-//! space of its parent. If a node references an object, the object is placed in the scene by the product of the
-//! placements of the node and of all ancestors of the node. If the node has a skin, the joints of the skin place the
-//! object instead. An object that no node references appears once, and its own space is the space of the scene.
+//! space of its parent. If a node references an object, the object is placed by the product of the placements of the
+//! node and all its ancestors. If the node has a skin, the joints of the skin place the object instead. An object that
+//! no node references appears once, and its own space is the space of the scene.
 
 mod edit;
 mod form;

@@ -15,9 +15,9 @@ use crate::{Geometry, Object, Pose, Scene, transformed};
 pub struct Instance<'s> {
     /// The object that is placed.
     pub object: &'s Object,
-    /// A name that is unique among all instances. The only instance of an object has the name of the object. If an
-    /// object has several instances, each has the name of its node (or of the object, if the node has no name). If this
-    /// name is not unique, a number is appended.
+    /// A name that is unique among all instances. If an object has only one instance, this instance has the name of the
+    /// object. If an object has several instances, each has the name of its node (or of the object, if the node has no
+    /// name). If this name is not unique, a number is appended.
     pub name: String,
     /// The affine map from the space of the object to scene space. For a skinned mesh, this is the map of the first
     /// joint.

@@ -13,11 +13,11 @@ use mesh::{
 use crate::transformed::{LinearMap, holds_tangents, mapped, transformed};
 use crate::{Graph, Node};
 
-/// The changes that a morph target makes to an attribute: the weight of the target, and the domain and the values of
-/// the changes.
+/// How a morph target changes an attribute: the weight of the target, the domain of the changes (vertices or corners),
+/// and the changes.
 type Change<'a> = (f64, Domain, &'a Values);
 
-/// A column of normals and its domain.
+/// An attribute column of normals: its domain (vertices or corners) and its values.
 type Normals<'a> = (Domain, &'a [DVec3]);
 
 /// How a node deforms its object.
@@ -105,9 +105,9 @@ impl Pose {
     }
 
     /// Returns the texture coordinates and colors of the mesh in this pose: the sums of the old values and the weighted
-    /// changes of the morph targets. Colors are clamped to 0 to 1, as in glTF 2.0, section 3.7.2.2. If the values or
-    /// one of their changes are stored on the corners, the new values are also stored on the corners. Columns that do
-    /// not change are left out. `vertex_of` returns the vertex of a corner.
+    /// changes of the morph targets. Colors are clamped to 0 to 1, as in glTF 2.0, section 3.7.2.2. If the old values,
+    /// or the changes of any morph target, are stored on the corners, the new values are stored on the corners too.
+    /// Columns that do not change are left out. `vertex_of` returns the vertex of a corner.
     fn morphed_values(
         &self,
         attributes: &Attributes,
@@ -153,15 +153,15 @@ impl Pose {
 
     /// Returns the normals and tangents of the mesh and of its morph targets in this pose. The returned values include
     /// the effect of the morph targets, but not of the joints. These columns replace the columns of the same names in
-    /// `attributes`. Columns that do not change are left out. The new columns of normals have values for corners if at
-    /// least one of the old columns of normals has values for corners. Otherwise, they have values for vertices.
+    /// `attributes`. Columns that do not change are left out. If at least one of the old columns of normals is stored
+    /// on corners, all new columns of normals are stored on corners. Otherwise, all of them are stored on vertices.
     /// `vertex_of` returns the vertex of a corner.
     ///
     /// For each morph target, the difference between the normal of the target and the old normal is multiplied by the
     /// weight of the target. The new normal is the normalized sum of the old normal and these weighted differences, as
-    /// in glTF 2.0, section 3.7.2.2. The normals of the morph targets change by the same vector, so these differences
-    /// stay the same. If the sum is zero, the old normal stays. Tangents are computed like normals, and their signs
-    /// stay.
+    /// in glTF 2.0, section 3.7.2.2. The normals of the morph targets change by the same vector as the normal of the
+    /// mesh, so the differences stay the same. If the sum is zero, the old normal stays. Tangents are computed like
+    /// normals, and their signs stay.
     fn morphed_directions(
         &self,
         attributes: &Attributes,

@@ -107,14 +107,14 @@ pub(crate) fn mapped(
     mesh
 }
 
-/// Whether a column holds normals, which the cofactor matrix of a map transforms. The tangents of vertices
+/// Whether a column holds normals. Normals are transformed by the cofactor matrix of a map. The tangents of vertices
 /// ([`TANGENT`]) have [`Rule::Normal`] too, but they are not normals: [`transform_tangents`] transforms them.
 pub fn holds_normals(domain: Domain, column: &Column) -> bool {
     column.rule == Rule::Normal && (domain, &*column.name) != (Domain::Vertex, TANGENT.name)
 }
 
 /// Transforms the directions of [`CORNER_TANGENT`], [`TANGENT`] and the tangents of morph targets, if the mesh has
-/// them. A reflection negates the signs of the tangents of corners.
+/// them. A reflection negates the signs of corner tangents.
 pub fn transform_tangents(mesh: &mut Mesh, linear: &DMat3) {
     change_tangents(mesh, |_| *linear);
 }

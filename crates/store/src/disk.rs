@@ -230,8 +230,8 @@ fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
         bytes = read_at_once(&file, expected)?;
         io::Seek::seek(&mut &file, io::SeekFrom::Start(expected as u64))?;
     }
-    // Reads the rest of the file. The rest of a small file is the whole file. The rest of a large file consists of the
-    // bytes that were appended after the size of the file was determined.
+    // Reads the remaining bytes. For a small file, these are all bytes. For a large file, these are the bytes that were
+    // appended after the size of the file was determined.
     let rest = limit - bytes.len() as u64;
     file.take(rest).read_to_end(&mut bytes)?;
     Ok(bytes)

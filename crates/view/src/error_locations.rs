@@ -34,7 +34,8 @@ const HIDDEN: f64 = 0.4;
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;
-/// The maximum number of faces of a scene whose edges the overview draws. More edges would cover the surface.
+/// If a scene has more faces than this maximum, the overview does not draw edges, because so many edges would cover the
+/// surface.
 const MAX_FACES_WITH_EDGES: usize = 5_000;
 /// The tangent of half of 25 degrees, the default field of view.
 const TANGENT: f64 = 0.221_694_662_642_939_43;
@@ -144,8 +145,8 @@ pub fn draw_error_locations(
     sheet(&cells, &style, budget).map(Some)
 }
 
-/// Returns the scene without the objects that have no error, because these objects could hide the locations. Returns
-/// the whole scene if the object of a location is unknown.
+/// Returns a scene with only the objects that contain error locations, because other objects could hide these
+/// locations. Returns the whole scene if the object of a location is unknown.
 fn objects_with_errors(scene: Scene, locations: &[ErrorLocation]) -> Scene {
     let names: HashSet<&str> = locations.iter().map(|location| &*location.object).collect();
     let objects = scene.objects().iter();

@@ -34,8 +34,8 @@ fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     }
 }
 
-/// Returns the maximum diameter of dots in pixels, for which `n` dots cover at most 15 % of a picture of this size. The
-/// result is at least 2.5, even if the dots then cover more than 15 %.
+/// Returns the largest diameter, in pixels, at which `n` dots cover at most 15 % of a picture of this size. The result
+/// is at least 2.5, even if the dots then cover more than 15 %.
 fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
     #[expect(
         clippy::cast_precision_loss,

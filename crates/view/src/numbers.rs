@@ -23,7 +23,8 @@ pub struct ColorBy {
     pub map: Option<ColorMap>,
     /// The values that the first and the last color represent, as in `(0, 60)`. If omitted, the range is computed from
     /// the values of the quantity. For curvatures, the range is symmetric about 0, and the lowest and the highest
-    /// eighth of the values are ignored. If all remaining values are 0, fewer values are ignored.
+    /// eighth of the values are ignored. If all remaining values are 0, only the lowest and the highest 2 % of the
+    /// values are ignored, or no values.
     #[serde(default)]
     pub range: Option<[f64; 2]>,
     /// Whether a legend in a corner of the picture explains the colors.
@@ -71,7 +72,7 @@ pub enum Quantity {
 
 /// The values of a quantity for the meshes of a scene.
 pub struct Numbers {
-    /// For each mesh that has the quantity, the numbers of its elements and the mapping to colors.
+    /// For each mesh that has the quantity: the value of each element, and the mapping from values to colors.
     pub colorings: Vec<Coloring>,
     pub(crate) scale: ColorScale,
 }
@@ -336,7 +337,8 @@ fn attribute(mesh: &Mesh, name: &str, component: Option<u32>) -> Option<(Domain,
 }
 
 impl ColorScale {
-    /// Extends the range and the classes, so that they include the range and the classes of another scene.
+    /// Extends the range and the classes (the distinct values for the legend), so that they include those of another
+    /// scene.
     pub(crate) fn join(&mut self, other: &Self) {
         let [low, high] = other.range;
         if low < self.range[0] {

@@ -16,7 +16,7 @@ use render::figure::label::{Label, draw_labels, shortened, text_width, wrapped};
 use render::figure::{Anchor, Color, Font, Text};
 use render::{Image, PictureError, checked_size};
 
-/// An image of a sheet.
+/// One image on a sheet, and its caption.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell<'a> {
     /// The image.
@@ -141,7 +141,7 @@ impl Layout {
 /// # Errors
 ///
 /// Returns [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE). Also returns this
-/// error if the sheet has no pixels, because there are no images and no gap.
+/// error if the sheet has no pixels: it has no images, and its gap is 0.
 pub fn sheet_size(
     cells: &[Cell],
     headings: Headings,
@@ -232,7 +232,7 @@ fn label(text: &str, style: &SheetStyle, position: DVec2, max_width: f64) -> Opt
     (!text.runs[0].text.is_empty()).then_some(Label { position, text })
 }
 
-/// Returns a placeholder for a missing image of this size. The placeholder shows a centered text with the reason.
+/// Returns a placeholder of this size for a missing image. The placeholder shows a centered text with the reason.
 ///
 /// # Errors
 ///
@@ -446,7 +446,7 @@ mod tests {
         assert_eq!(dy, 2 * style.font_size);
         assert!((20..70).contains(&dx), "{dx}");
         // A sheet with headings contains the same images as a sheet without headings, but moved to the right and down.
-        // The text of the headings is above and to the left of the images.
+        // Column headings are above the images, and row headings are to the left of the images.
         let is_text = |x, y| ![RED, WHITE].contains(&at(&with, x, y));
         for y in style.gap..without.height {
             for x in style.gap..without.width {

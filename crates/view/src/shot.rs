@@ -80,7 +80,7 @@ impl<'s> Subject<'s> {
     }
 }
 
-/// The extent of a scene: the data that determine a view and a color range into which the whole scene fits.
+/// The extent of a scene: the data from which the view and the color range for the whole scene are computed.
 ///
 /// With the [joined](Self::join) extents of several scenes, each scene can be [drawn](Shot::draw) separately. The
 /// pictures then have the same view and scale, and equal numbers have equal colors.
@@ -114,7 +114,7 @@ impl Extent {
 }
 
 impl Shot<'_> {
-    /// Returns the number of pixels of all images of one scene.
+    /// Returns the total number of pixels in the images of one scene.
     pub fn n_pixels(&self) -> u64 {
         let [width, height] = self.size.map(u64::from);
         width * height * self.cameras.len() as u64 * u64::from(self.frames)
@@ -131,7 +131,7 @@ impl Shot<'_> {
         PictureError::check_budget(needed.saturating_add(pixel_bytes(self.size)), self.budget)
     }
 
-    /// Returns the size of all images of `n_scenes` scenes, in bytes.
+    /// Returns the total size of the images of `n_scenes` scenes, in bytes.
     fn image_bytes(&self, n_scenes: usize) -> u64 {
         (4 * self.n_pixels()).saturating_mul(n_scenes as u64)
     }

@@ -30,10 +30,10 @@ pub(crate) struct Target<'a> {
 
 /// Returns the direction from a target to the camera, as a unit vector.
 ///
-/// The candidates are directions that point away from the outer side of the surface. A candidate is clear if no face
-/// hides the middle of the target from a camera in this direction. Returns the clear candidate that is nearest to the
-/// unit vector `preferred`. If no candidate is clear, the search is repeated for a camera at the distance `near` from
-/// the target. Faces behind this camera are ignored. If still no candidate is clear, returns `preferred`.
+/// The candidates are directions on the outer side of the surface. A candidate is clear if no face hides the middle of
+/// the target from a camera in this direction. Of all clear candidates, returns the one nearest to the unit vector
+/// `preferred`. If no candidate is clear, the search is repeated for a camera at the distance `near` from the target.
+/// Faces behind this camera are ignored. If still no candidate is clear, returns `preferred`.
 pub(crate) fn clear_direction(
     scene: &Scene,
     target: &Target,

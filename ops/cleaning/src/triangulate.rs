@@ -36,8 +36,9 @@ use op::prelude::*;
 /// into triangles by ear clipping. A larger face is first cut into monotone polygons, which are then cut into
 /// triangles. Then diagonals are flipped until the triangulation is a constrained Delaunay triangulation. Some faces
 /// cannot be triangulated in this way: faces with zero area, faces with crossing sides, and faces with more than ten
-/// million corners. Faces with more than 4096 corners also cannot be triangulated in this way if their sides overlap.
-/// Each of these faces becomes a triangle fan around its vertex with the lowest id. The report counts these faces.
+/// million corners. A face with overlapping sides also cannot be triangulated in this way if it has more than 4096
+/// corners. Each of these faces becomes a triangle fan around its vertex with the lowest id. The report counts these
+/// faces.
 ///
 /// In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids. The
 /// triangles have the values of the face. Vertices and edges keep their ids. Each corner of a triangle has the values

@@ -43,9 +43,10 @@ pub struct CurveFigure {
     /// Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
     #[serde(default)]
     pub by_level: bool,
-    /// The name of another curve, such as an older version of the drawn curve. The older curve is drawn faintly behind
-    /// each drawn curve. If both curves have the same degree, an arrow leads from the old to the new position of each
-    /// control point. Control points that have moved by at most 28 SVG pixels have no arrow.
+    /// The name of another curve, such as an older version of the drawn curve. This other curve is drawn faintly behind
+    /// each drawn curve. If both curves have the same degree, an arrow leads from each control point of the other curve
+    /// to the same control point of the drawn curve. Control points that have moved by at most 28 SVG pixels have no
+    /// arrow.
     #[serde(default)]
     pub before: Option<String>,
     /// The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19 pixels in wide

@@ -196,7 +196,7 @@ impl Picture {
     /// Draws scenes side by side at the same scale. Each scene has a caption, which can be empty. Returns one image, or
     /// the images of a turntable, and notes about parts of the scene that are not drawn.
     ///
-    /// If the [`Extent`] `within` is given, [`Camera::Fit`] shows the region of this extent instead of only the drawn
+    /// If the [`Extent`] `within` is given, [`Camera::Fit`] shows the whole region of this extent, not only the drawn
     /// scenes. If `color_by` has no range, the color range of `within` is used. The images have no legend, because the
     /// caller draws one [common legend](Extent::legend) for all scenes.
     ///

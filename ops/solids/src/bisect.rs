@@ -15,13 +15,13 @@ use op::prelude::*;
 ///
 /// Every edge that crosses the plane gets a new vertex at the crossing point. Every face that crosses the plane is cut
 /// along the plane. A concave face can be cut in several places. A vertex near the plane is treated as if it were on
-/// the plane, and is not moved. A vertex is near if its distance from the plane is at most 1e-9 times the longest side
-/// of the bounding box. A distance of at most 1e-14 times the largest absolute coordinate also counts as near. Every
-/// edge has two half-edges. When an edge is cut, one part keeps the id of the edge: the part that contains the start of
-/// the half-edge with the lower id. When a face is cut, the part that contains the first corner keeps the id of the
-/// face. New elements get the highest ids. Where an edge crosses the plane, attributes are interpolated. At a seam (an
-/// edge whose corner values, such as UVs, differ between its two sides), the corner values of each side are
-/// interpolated separately.
+/// the plane, and is not moved. A vertex is near the plane if its distance from the plane is at most 1e-9 times the
+/// longest side of the bounding box. A vertex is also near if this distance is at most 1e-14 times the largest absolute
+/// coordinate. Every edge has two half-edges. When an edge is cut, one part keeps the id of the edge: the part that
+/// contains the start of the half-edge with the lower id. When a face is cut, the part that contains the first corner
+/// keeps the id of the face. New elements get the highest ids. Where an edge crosses the plane, attributes are
+/// interpolated. At a seam (an edge whose corner values, such as UVs, differ between its two sides), the corner values
+/// of each side are interpolated separately.
 ///
 /// With `keep: Front`, the part of the mesh behind the plane is removed. With `keep: Back`, the part in front of the
 /// plane is removed. If a face lies in the plane and its normal points to the front, the face belongs to the back,

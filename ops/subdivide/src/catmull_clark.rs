@@ -71,9 +71,9 @@ pub struct CatmullClark {
     /// this surface.
     #[serde(default)]
     pub to_limit: bool,
-    /// The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices on common edges
-    /// as additional corners. The surface outside the refined faces does not move. The documentation of the Rust
-    /// function `subdivision::refine_faces` describes the ids of new elements.
+    /// The faces to refine. If omitted, all faces. A face beside a refined face gets additional corners at the new
+    /// vertices on their common edge. The surface outside the refined faces does not move. The documentation of the
+    /// Rust function `subdivision::refine_faces` describes the ids of new elements.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

@@ -21,8 +21,8 @@
 //!     9/16 ---- 3/16
 //! ```
 //!
-//! In a face with n corners, the new vertex of a corner is a weighted mean of all corners of the face. The corner of
-//! the new vertex has the weight (n + 5)/(4n). The j-th corner after this corner has the weight (3 + 2
+//! In a face with n corners, the new vertex of a corner is a weighted mean of all corners of the face. The corner to
+//! which the new vertex belongs has the weight (n + 5)/(4n). The j-th corner after this corner has the weight (3 + 2
 //! cos(2πj/n))/(4n). Source: Doo and Sabin, "Behaviour of recursive division surfaces near extraordinary points", 1978.
 //! On a grid of quads the limit surface is the biquadratic B-spline of the vertices. The limit surface touches every
 //! face at the mean of its corners and has a continuous tangent plane. The boundary is a quadratic B-spline curve

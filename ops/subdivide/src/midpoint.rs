@@ -48,8 +48,8 @@ pub struct Midpoint {
     #[serde(default)]
     pub into: Split,
     /// The faces to refine. If omitted, all faces. With `into: Triangles`, triangles next to the refined faces are cut
-    /// in two or four. With `into: Quads`, faces next to the refined faces get the new vertices on common edges as
-    /// additional corners. The documentation of the Rust function `subdivision::refine_faces` describes the ids of new
+    /// in two or four. With `into: Quads`, a face beside a refined face gets additional corners at the new vertices on
+    /// their common edge. The documentation of the Rust function `subdivision::refine_faces` describes the ids of new
     /// elements.
     #[serde(default)]
     pub faces: Option<FaceSelection>,

@@ -88,10 +88,10 @@ fn joints(turns: bool) -> [(DMat3, DVec3); 3] {
 }
 
 /// The weights of a new vertex depend linearly on the weights of the old vertices, and its point depends linearly on
-/// their points. A pose multiplies weights by points. Therefore, subdivision and the pose commute if the joints are
-/// only translated, or if the weights are the same at both ends of an edge. Otherwise, the two results for the new
-/// vertex on an edge from p to q differ. The difference is 1/4 of the sum of (w(q) - w(p)) M (q - p) over all joints,
-/// where M is the linear part of the transform of a joint.
+/// their points. To pose a vertex, its weights are multiplied by its point. Therefore, subdivision and the pose commute
+/// if the joints are only translated, or if the weights are the same at both ends of an edge. Otherwise, the two
+/// results for the new vertex on an edge from p to q differ. The difference is 1/4 of the sum of (w(q) - w(p)) M (q -
+/// p) over all joints, where M is the linear part of the transform of a joint.
 #[test]
 fn posing_and_midpoint_subdivision_commute() {
     for (is_rigid, turns) in [(false, false), (true, true)] {

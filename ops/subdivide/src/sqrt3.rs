@@ -25,9 +25,9 @@
 //!      in a face          old, inside, valence n    old, boundary            new, boundary
 //! ```
 //!
-//! Here a = (4 - 2 cos(2π/n))/9. The boundary changes only on every second level of a step, which cuts each boundary
-//! edge in three. Boundary edges are never flipped. Two levels cut every edge in three and replace each triangle with
-//! nine triangles. Two levels of Loop subdivision replace each triangle with sixteen triangles. Source: Kobbelt,
+//! Here a = (4 - 2 cos(2π/n))/9. Only every second level of a step changes the boundary: it cuts each boundary edge in
+//! three. Boundary edges are never flipped. Two levels cut every edge in three and replace each triangle with nine
+//! triangles. Two levels of Loop subdivision replace each triangle with sixteen triangles. Source: Kobbelt,
 //! "√3-Subdivision", 2000. The limit surface has continuous curvature except at old vertices whose valence is not 6.
 //!
 //! The crate `subdivision` implements all subdivision schemes.
@@ -41,8 +41,8 @@ use crate::step::{Step, Until};
 /// level.
 ///
 /// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every second
-/// level also cuts each boundary edge in three. For each boundary edge, the counts of vertices and edges are then
-/// larger by one. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new vertex in
+/// level also cuts each boundary edge in three. Each boundary edge that is cut in three adds one vertex and one edge to
+/// these counts. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new vertex in
 /// face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step counts its
 /// own levels from 1. One step of two levels therefore cuts the boundary edges. Two steps of one level each leave the
 /// boundary edges uncut.

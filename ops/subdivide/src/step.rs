@@ -128,7 +128,7 @@ impl Step<'_> {
         change(&mut plan.edges, end.edges.0);
         change(&mut plan.faces, end.faces.0);
         if self.faces.is_some() && !scheme.needs_triangles() {
-            // Faces next to refined faces get the new vertices on common edges as additional corners.
+            // A face beside a refined face gets additional corners at the new vertices on their common edge.
             plan.degrees.min = plan.degrees.min.min(4);
             plan.degrees.max = plan.degrees.max.saturating_mul(1 << levels);
         } else {
@@ -227,7 +227,7 @@ impl Step<'_> {
     }
 }
 
-/// Returns advice for meshes with faces that are not triangles. The scheme must need triangles.
+/// Returns advice for a mesh with faces that are not triangles. `scheme` is a scheme that needs triangles.
 fn help_for_polygons(scheme: Scheme) -> &'static str {
     match scheme {
         Scheme::Midpoint(_) => "write `into: Quads`, or triangulate the faces first",
@@ -254,7 +254,7 @@ fn to_op_error(error: SubdivisionError) -> OpError {
     }
 }
 
-/// The smallest and the largest possible number of elements, with the arithmetic that [`Size`] needs.
+/// The smallest and the largest possible number of elements. This type implements the arithmetic that [`Size`] needs.
 #[derive(Clone, Copy)]
 struct Planned(Range);
 
@@ -293,7 +293,8 @@ fn planned_size(plan: &MeshPlan) -> Size<Planned> {
     }
 }
 
-/// Returns the range of the face degrees after one level. `degrees` is the range before the level.
+/// Returns the smallest and the largest possible number of corners of a face after one level. `degrees` contains these
+/// two numbers before the level.
 fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
     match scheme {
         Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => Range::exactly(4),

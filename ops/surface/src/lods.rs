@@ -37,7 +37,7 @@ pub struct Lods {
     /// If omitted, no additional edges.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
-    /// What to do if the number of faces of a copy cannot be reached.
+    /// What to do if a copy cannot be reduced to the requested number of faces.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }

@@ -56,8 +56,8 @@ pub struct Simplify {
     pub ratio: Option<Fraction>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. The limit is
     /// guaranteed: for each collapse, the step computes an upper bound of how far the surface moves, and adds up these
-    /// bounds. The sum overestimates the true distance. If the limit ends the step, the true distance is usually
-    /// between a third of the limit and the limit. If omitted, there is no limit.
+    /// bounds. The sum overestimates the true distance. If the step ends because of this limit, the true distance is
+    /// usually at least a third of the limit. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
     /// Edges to keep as lines, in addition to the lines that are always kept. For example, `Sharp(above: 30)`. If
@@ -71,7 +71,7 @@ pub struct Simplify {
     /// surface are close together.
     #[serde(default)]
     pub intersections: Intersections,
-    /// What to do if the number of faces cannot be reached.
+    /// What to do if the mesh cannot be reduced to the requested number of faces.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }
@@ -236,8 +236,8 @@ impl MeshOperation for Simplify {
 }
 
 /// Adds a note with the names of the vertex attributes that hold one number, such as the attributes that `Measure`
-/// stores. Users do not expect that a measurement influences the result, but changes of these attributes count as
-/// changes of the surface.
+/// stores. The note tells users that a measurement can influence the result, because changes of these attributes count
+/// as changes of the surface.
 pub(crate) fn note_quantities(mesh: &Mesh, report: &mut Report) {
     let columns = mesh.attributes().of(Domain::Vertex).iter();
     let is_quantity = |c: &&Column| {
@@ -252,8 +252,8 @@ pub(crate) fn note_quantities(mesh: &Mesh, report: &mut Report) {
     }
 }
 
-/// Adds a note with the number of faces that overlap in the texture coordinates `uv` of the simplified mesh, if more
-/// faces overlap than before. Simplified borders of charts can cross other charts.
+/// If more faces overlap in the texture coordinates `uv` after the simplification than before, adds a note with both
+/// numbers of faces. Simplified borders of charts can cross other charts.
 pub(crate) fn note_overlaps(
     before: &Mesh,
     after: &Mesh,

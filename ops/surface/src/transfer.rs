@@ -22,11 +22,11 @@ use origins::{Origin, Source};
 ///
 /// The step copies vertex, corner and face attributes from the object `from` to elements of the same kind in the
 /// changed mesh. For each element, the step finds the nearest point on the surface of `from`, and the face that
-/// contains this point. Numbers and vectors of vertices and corners are interpolated inside this face. Whole numbers,
-/// tags, and other attributes that are never interpolated are copied from the corner of this face that is nearest to
-/// the point. Values of faces are copied from this face. If the changed mesh already has the attribute with the same
-/// type of values, the attribute is overwritten. If the type of values differs, the step fails. If the step does not
-/// name its objects with `on`, it changes all meshes except `from`.
+/// contains this point. For vertex and corner attributes, numbers and vectors are interpolated inside this face. Whole
+/// numbers, tags, and other attributes that are never interpolated are copied from the corner of this face that is
+/// nearest to the point. Values of faces are copied from this face. If the changed mesh already has the attribute with
+/// the same type of values, the attribute is overwritten. If the changed mesh has the attribute with another type of
+/// values, the step fails. If the step does not name its objects with `on`, it changes all meshes except `from`.
 ///
 /// Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
 /// same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This prevents
@@ -226,8 +226,9 @@ const fn plural(domain: Domain) -> &'static str {
     }
 }
 
-/// Returns the new column of the target. An element with an origin gets the value of `column` at its origin. Elements
-/// without an origin keep their values in `old`, or get zeros if `old` is `None`.
+/// Returns the new attribute column of the target. For each element of the target, `origins` states the source elements
+/// from which it takes its value. If there are none, the element keeps its value in `old`, or gets zero if `old` is
+/// `None`.
 fn transferred(column: &Column, old: Option<&Column>, origins: &[Origin]) -> Column {
     let mut values = column.values.clone();
     let n = values.len();

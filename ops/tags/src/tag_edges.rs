@@ -7,7 +7,7 @@ use op::prelude::*;
 /// of the tag is `rim`, `Tagged("rim")` selects the tagged edges in later steps.
 ///
 /// When a later step splits or subdivides a tagged edge, the parts of this edge are also tagged. An existing edge tag
-/// of the same name is replaced. If an edge attribute that is not a tag already has this name, the step fails. The
+/// of the same name is replaced. The step fails if the mesh has an edge attribute of this name that is not a tag. The
 /// geometry does not change. The report counts the edges that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

@@ -7,7 +7,7 @@ use op::prelude::*;
 /// of the tag is `rim`, `Tagged("rim")` selects the tagged faces in later steps.
 ///
 /// When a later step splits or subdivides a tagged face, the parts of this face are also tagged. An existing face tag
-/// of the same name is replaced. If a face attribute that is not a tag already has this name, the step fails. The
+/// of the same name is replaced. The step fails if the mesh has a face attribute of this name that is not a tag. The
 /// geometry does not change. The report counts the faces that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

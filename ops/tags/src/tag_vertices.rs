@@ -8,7 +8,7 @@ use op::prelude::*;
 ///
 /// If a later step copies a tagged vertex, as `ExtrudeFaces` does, the copy is also tagged. If a later step adds a
 /// vertex on an edge, as `SplitEdges` does, the new vertex is not tagged. An existing vertex tag of the same name is
-/// replaced. If a vertex attribute that is not a tag already has this name, the step fails. The geometry does not
+/// replaced. The step fails if the mesh has a vertex attribute of this name that is not a tag. The geometry does not
 /// change. The report counts the vertices that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

@@ -58,8 +58,8 @@ fn damage_to_any_file_is_noticed() {
         |path, others| fs::write(path, &others[0]).unwrap(),
         |path, others| fs::write(path, others.last().unwrap()).unwrap(),
     ];
-    // If the last step of the recipe is edited, the run needs the scene before this step. The files of this scene can
-    // be damaged.
+    // If the last step of the recipe is edited, the run reads the files of the scene before this step. One of these
+    // files can be damaged.
     let edited = text.replace("Lift(by: 2)", "Lift(by: 3)");
     let plain = [&text, &edited].map(|text| place.run_with(text, None, "plain"));
     for damage in damages {

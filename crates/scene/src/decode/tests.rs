@@ -163,8 +163,8 @@ fn a_length_that_exceeds_the_memory_is_refused() {
     assert!(Scene::decode(&rest, 1, &mut arrays).is_err());
 }
 
-/// Changes the arrays of a grid, and tries to create a mesh from the changed arrays. Returns the defect of the arrays
-/// if this fails.
+/// Changes the arrays of a grid, and tries to create a mesh from the changed arrays. If the mesh cannot be created,
+/// returns the defect of the arrays.
 fn defect_after(change: impl FnOnce(&mut Connectivity, &mut Vec<DVec3>)) -> Option<Defect> {
     let mesh = shapes::grid(2, 2);
     let (mut c, mut positions) = (mesh.connectivity().clone(), mesh.positions().to_vec());

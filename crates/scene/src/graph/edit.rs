@@ -84,7 +84,7 @@ impl Graph {
         }
     }
 
-    /// Adds a child that references the object `part` to each node that references the object `whole`. The child has
+    /// Gives each node that references the object `whole` a child node that references the object `part`. The child has
     /// the skin and the morph weights of its parent. Its placement is the identity, so the child has the same position
     /// in the scene as its parent. If only one node references `whole`, the child is named `part`.
     pub fn add_part(&mut self, whole: &str, part: &str) {
@@ -151,11 +151,11 @@ impl Graph {
     }
 
     /// Returns a graph for the objects that `is_wanted` accepts. The graph has the nodes that reference these objects,
-    /// the joints of their skins, the roots of these joints, and the ancestors of all these nodes. If a joint or an
-    /// ancestor references an object that `is_wanted` refuses, the node is kept without the object, its skin and its
-    /// morph weights. The returned graph also has the skins and labels of the accepted objects. It has the animations
-    /// of its nodes, but no channels for the morph weights of nodes without an object. All arrays and all parts of the
-    /// document are kept. Cameras and lights are removed.
+    /// the joints of their skins, the roots of these joints, and the ancestors of all these nodes. A joint or an
+    /// ancestor can reference an object that `is_wanted` does not accept. Such a node is kept, but without the object,
+    /// the skin and the morph weights. The returned graph also has the skins and labels of the accepted objects. It has
+    /// the animations of its nodes, but no channels for the morph weights of nodes without an object. All arrays and
+    /// all parts of the document are kept. Cameras and lights are removed.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),

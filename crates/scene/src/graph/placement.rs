@@ -37,8 +37,8 @@ impl Placement {
     /// matrix.
     const TOLERANCE: f64 = 1e-12;
 
-    /// Returns the map from the space of the node to the space of its parent. If a number of the placement is infinite
-    /// or NaN, or the rotation is zero, the numbers of the map are not all finite.
+    /// Returns the map from the space of the node to the space of its parent. The map contains infinite numbers or NaN
+    /// if a number of the placement is infinite or NaN, or if all numbers of the rotation are 0.
     pub fn to_affine(self) -> DAffine3 {
         match self {
             Self::Matrix(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),

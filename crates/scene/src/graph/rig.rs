@@ -250,7 +250,7 @@ impl Graph {
         removed
     }
 
-    /// Keeps only the skins whose flag in `keep` is true. Nodes with a removed skin have no skin afterwards.
+    /// Keeps only the skins whose flag in `keep` is true. A node whose skin is removed has no skin afterwards.
     pub fn retain_skins(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places: Vec<Option<usize>> = (keep.iter())

@@ -14,7 +14,7 @@ fn weld(distance: f64) -> Weld {
     Weld { distance }
 }
 
-/// Returns a mesh with the same faces in which each corner of a face has its own vertex.
+/// Returns a mesh with the same faces, but with a separate vertex for each corner of each face.
 fn torn(mesh: &Mesh) -> Mesh {
     let mut positions = Vec::new();
     let mut polygons = Vec::new();

@@ -25,7 +25,7 @@ const INSET: f64 = 1e-6;
 /// is used instead.
 const MAX_PAIRS: usize = 4096;
 
-/// The charts of an attribute of corners. A chart is a set of connected faces. Two faces are connected if the values of
+/// The charts of a corner attribute. A chart is a set of connected faces. Two faces are connected if the values of
 /// their corners are the same at the common edge.
 pub(super) struct Charts<'a> {
     mesh: &'a Mesh,
@@ -117,9 +117,10 @@ impl<'a> Charts<'a> {
         Ok(self.indices[chart].as_ref().expect("a chart has faces"))
     }
 
-    /// Returns the candidate that is nearest to the face `f` if its distance from `f` is less than half of the distance
-    /// of the first candidate. Otherwise, returns the first candidate. The distance between a chart and a face is the
-    /// largest of the distances from the chart to the corners and to the center of the face.
+    /// Compares the distances of the candidates from the face `f`. Returns the nearest candidate if it is less than
+    /// half as far away as the first candidate. Otherwise, returns the first candidate. The distance of a chart from a
+    /// face is the distance from the chart to the farthest of the following points: the corners and the center of the
+    /// face.
     pub(super) fn nearest(
         &mut self,
         candidates: &[usize],
@@ -146,12 +147,12 @@ impl<'a> Charts<'a> {
         Ok(chart)
     }
 
-    /// Returns the faces of `chart` that no seam separates from the center of the target face `f`. Returns `None` if
-    /// the chart has no seam near `f`. `farthest` is the largest of the distances from the source to the corners and to
-    /// the center of `f`.
+    /// Returns the faces of `chart` that lie under the target face `f`, on the same side of the seam as the center of
+    /// `f`. Returns `None` if the chart has no seam near `f`. `farthest` is the distance from the source to the
+    /// farthest of these points: the corners and the center of `f`.
     ///
-    /// First finds the part of the source under the face. This part consists of the nearest faces that connect the
-    /// center of the face with all of its corners. Then returns the faces of this part that are connected with the
+    /// First finds the part of the source under `f`: the source faces nearest to the center and to the corners of `f`,
+    /// and the faces that connect them. Then returns the faces of this part that can be reached from the face under the
     /// center without crossing a seam.
     pub(super) fn side_under(
         &mut self,
@@ -206,9 +207,9 @@ impl<'a> Charts<'a> {
         Ok(index.map(|index| Side { faces, index }))
     }
 
-    /// Returns the faces that are connected with `start` and are at most a distance d away from `triangles`.
-    /// Connections can cross seams. Here, d is the smallest distance at which all `goals` are included, or `limit` if
-    /// that distance is larger. If d is `limit`, some goals can be missing.
+    /// Starts at the face `start`, and collects the connected faces that are at most a distance d away from
+    /// `triangles`. Faces are also connected across seams. The distance d is the smallest distance for which the result
+    /// contains all `goals`, but at most `limit`. If d is `limit`, some goals can be missing.
     fn connecting(
         &self,
         start: FaceId,

@@ -22,7 +22,7 @@ use crate::patch::cubic;
 use crate::weights::Weights;
 use crate::{Counts, Faces, Patch};
 
-/// Points coincide if each of their coordinates differs by at most this fraction of the extent of the patch. (The
+/// Two points coincide if they differ in each coordinate by at most this fraction of the extent of the patch. (The
 /// extent is the longest side of the bounding box of the control points.)
 const TOLERANCE: f64 = 1e-12;
 
@@ -79,7 +79,7 @@ impl Sides {
         chain
     }
 
-    /// Returns the exact number of elements of the tessellation of a patch with these collapsed sides. All counts are
+    /// Returns exactly how many elements the tessellation of a patch with these collapsed sides has. All counts are
     /// zero if the tessellation has no face.
     ///
     /// A count that exceeds 64 bits is replaced by the largest 64-bit number.

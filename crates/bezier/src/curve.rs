@@ -86,7 +86,7 @@ impl<P: Point> Curve<P> {
         Self::new(points)
     }
 
-    /// Returns all degree + 1 levels of de Casteljau's algorithm at `t`.
+    /// Returns all levels of de Casteljau's algorithm at `t`. The number of levels is the degree plus 1.
     ///
     /// The first level consists of the control points. Each level has one point fewer than the previous level. The last
     /// level has one point: the point of the curve at `t`.

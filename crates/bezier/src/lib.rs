@@ -10,7 +10,7 @@
 //!   called legs. Each point of the next level divides one leg in the ratio t : 1 - t. See [`one_step`] and
 //!   [`Curve::levels`].
 //! - A **bicubic patch** s(u, v) has 4 by 4 control points: u runs along the rows, v across them. Each row defines a
-//!   cubic curve in u. For a given u, the four points of these curves are the control points of a cubic curve in v. See
+//!   cubic curve in u. For a given u, the points of these four curves are the control points of a cubic curve in v. See
 //!   [`Patch`].
 //! - A **tessellation** samples patches at u = i/n, v = j/n and joins the samples by triangles or
 //!   quads. See [`tessellate()`] and [`counts`].

@@ -41,8 +41,8 @@ use glam::{DVec2, DVec3};
 ///
 /// This threshold is well above the rounding errors of the coefficients (1e-14). The threshold is also above the
 /// coefficients at an edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()), but not
-/// exactly. A point can be so close to a pole (within 1e-10 times the size of the patch) that its first nonzero
-/// coefficient is below this value and inaccurate. In this case, the next coefficient gives a more accurate normal.
+/// exactly. Very close to a pole (within 1e-10 times the size of the patch), the first nonzero coefficient can be
+/// inaccurate and below this threshold. In this case, the next coefficient gives a more accurate normal.
 pub const VANISHING: f64 = 1e-10;
 
 /// Returns the limit of the normals along a line from `uv` into the patch. Up to three lines are tried. Returns `None`

@@ -17,14 +17,14 @@
 //! bit.
 //!
 //! A side of a patch is collapsed if its points coincide, as at the pole of a teapot's lid. A collapsed side becomes
-//! one vertex. Adjacent collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle.
-//! A cell with two or more collapsed sides is left out. To test whether a side is collapsed, its boundary curve is
-//! sampled at i/m for i from 0 to m. The number m is n or 3, whichever is smaller, where n is the number of segments. A
-//! side is collapsed if the coordinates of every sample differ from the coordinates of the first sample by at most the
-//! tolerance. The tolerance is 1e-12 times the longest side of the bounding box of the control points of the patch. The
-//! sides have the order v = 0, u = 1, v = 1, u = 0, and run counter-clockwise around the patch. Adjacent collapsed
-//! sides become a vertex at the start of the first of these sides. The UV and the normal of this vertex are the values
-//! at the middle of the first side.
+//! one vertex. Adjacent collapsed sides together become one vertex. A cell (the area between neighboring samples) with
+//! one collapsed side becomes a triangle. A cell with two or more collapsed sides is left out. To test whether a side
+//! is collapsed, its boundary curve is sampled at i/m for i from 0 to m. The number m is n or 3, whichever is smaller,
+//! where n is the number of segments. A side is collapsed if the coordinates of every sample differ from the
+//! coordinates of the first sample by at most the tolerance. The tolerance is 1e-12 times the longest side of the
+//! bounding box of the control points of the patch. The sides have the order v = 0, u = 1, v = 1, u = 0, and run
+//! counter-clockwise around the patch. Adjacent collapsed sides become a vertex at the start of the first of these
+//! sides. The UV and the normal of this vertex are the values at the middle of the first side.
 //!
 //! A patch is a curve or a point if all its rows of control points are the same or all its columns are the same. The
 //! tolerance is the same as for collapsed sides. If a patch is a curve or a point, or if none of its cells becomes a
@@ -102,7 +102,7 @@ pub fn tessellate_patch(
     Ok(())
 }
 
-/// Returns the exact number of elements of the result of [`tessellate`], without computing the result.
+/// Returns exactly how many elements the result of [`tessellate`] has, without computing the result.
 ///
 /// # Errors
 ///

@@ -22,7 +22,7 @@ pub(crate) struct BlobRef {
     pub(crate) len: u64,
 }
 
-/// A scene whose long arrays are blobs.
+/// A scene whose long arrays are stored as blobs (separate files).
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct SceneRef {
     /// The canonical encoding of the scene, without the long arrays.

@@ -103,8 +103,7 @@ fn remove(path: &Path) -> io::Result<()> {
 }
 
 /// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as an integer of 8 bytes.
-/// If a run lists all files of the cache, the run replaces the content of `sizes` by the total size of these files
-/// instead.
+/// If a run lists all files of the cache, the total size of these files replaces the content of `sizes`.
 fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }

@@ -78,8 +78,8 @@ impl History {
         };
         let past = self.last_run.get(index).filter(is_same_step);
         let past = past.or_else(|| self.last_run.iter().find(is_same_step));
-        // The label of a step can differ between two runs. If no step of the last run has the same operation and label,
-        // a step with the same operation at the same index counts as the same step.
+        // The label of a step can differ between two runs. If no step of the last run has this operation and this
+        // label, the step at this index counts as the same step if it has this operation.
         let is_same_operation = |past: &&PastStep| past.ingredients.operation == now.operation;
         let past = past.or_else(|| self.last_run.get(index).filter(is_same_operation));
         let Some(past) = past else {

@@ -32,7 +32,7 @@ pub(crate) struct Ingredients {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Key(pub(crate) Hash);
 
-/// The identity of a scene, derived from the steps that produced it.
+/// A digest that identifies a scene, usually computed from the steps that produced the scene.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct State(pub(crate) Hash);
 

@@ -20,7 +20,7 @@ use crate::record::{OutputFile, Outputs, Record, load, store};
 /// The data that are known about the scene at one point of the run: at the start, or after a step.
 #[derive(Default)]
 struct Position {
-    /// The identity of the scene, if it is known.
+    /// A digest that identifies the scene, if it is known.
     state: Option<State>,
     /// The key and the record of the step that leads to this point of the run.
     step: Option<(Key, Record)>,

@@ -53,10 +53,10 @@ pub fn losses(losses: &[Loss]) -> Vec<Json> {
     losses.iter().map(json).collect()
 }
 
-/// Returns the event `done` of a step. The event contains the label of the step, the numbers of elements in the scene
-/// after the step, the report and the time of the step, and whether the result was taken from the cache. The argument
-/// `number` is the index of the step, counted from 0. The field `number` of the event is this index plus 1, because
-/// events count steps from 1.
+/// Returns the event `done` of a step. The event contains the label, the report and the time of the step, and the
+/// numbers of elements in the scene after the step. It also states whether the result was taken from the cache. The
+/// argument `number` is the index of the step, counted from 0. The field `number` of the event is this index plus 1,
+/// because events count steps from 1.
 pub fn step_done(number: usize, done: &StepDone) -> Json {
     json!({
         "event": "done",

@@ -4,13 +4,13 @@
 //! written with all their bits. Two scenes have the same canonical form if and only if they have the same graph and the
 //! same objects in the same order, bit for bit. Removed elements of meshes are not written.
 //!
-//! If the scene has a graph, the graph follows the objects. The first version of the form had no graphs. A scene
-//! without a graph is still written as in the first version.
+//! If the scene has a graph, the graph follows the objects. The first version of the canonical form had no graphs. A
+//! scene without a graph is still written as in the first version.
 //!
 //! A material is written as its name, base color, metalness, roughness and the path of its base color texture. Other
 //! properties are written only if they differ from their defaults: the marker [`MORE`] comes first, then each property
-//! with its name. Without these other properties, a material is still written as in the first version of the form. The
-//! extras of a material and the names of a texture follow after a second marker, and only if they are present.
+//! with its name. Without these other properties, a material is still written as in the first version of the form. If a
+//! material has extras, or a texture has names, they follow after another marker.
 
 use std::fmt;
 
@@ -238,8 +238,8 @@ impl Encoder<'_> {
         self.text(path.unwrap_or(""));
 
         let mut default = Material::new("");
-        // Materials had no alpha mode in the first version of the canonical form: a surface was drawn as transparent if
-        // and only if the alpha of its base color was less than 1. The default mode reproduces this rule.
+        // The first version of the canonical form had no alpha mode. A surface was drawn as transparent if and only if
+        // the alpha of its base color was less than 1. The default mode reproduces this rule.
         if m.base_color[3] < 1.0 {
             default.alpha = AlphaMode::Blend;
         }

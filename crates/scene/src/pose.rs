@@ -152,16 +152,16 @@ impl Pose {
     }
 
     /// Returns the normals and tangents of the mesh and of its morph targets in this pose. The returned values include
-    /// the effect of the morph targets, but not of the joints. These columns replace the columns of the same names in
-    /// `attributes`. Columns that do not change are left out. If at least one of the old columns of normals is stored
-    /// on corners, all new columns of normals are stored on corners. Otherwise, all of them are stored on vertices.
-    /// `vertex_of` returns the vertex of a corner.
+    /// the effect of the morph targets, but not of the joints. The returned columns replace the attribute columns of
+    /// the same names in `attributes`. Columns that do not change are left out. If at least one of the old columns of
+    /// normals is stored on corners, all new columns of normals are stored on corners. Otherwise, all of them are
+    /// stored on vertices. `vertex_of` returns the vertex of a corner.
     ///
     /// For each morph target, the difference between the normal of the target and the old normal is multiplied by the
     /// weight of the target. The new normal is the normalized sum of the old normal and these weighted differences, as
     /// in glTF 2.0, section 3.7.2.2. The normals of the morph targets change by the same vector as the normal of the
     /// mesh, so the differences stay the same. If the sum is zero, the old normal stays. Tangents are computed like
-    /// normals, and their signs stay.
+    /// normals, and keep their signs.
     fn morphed_directions(
         &self,
         attributes: &Attributes,
@@ -280,8 +280,8 @@ impl Pose {
     }
 }
 
-/// Adds the weighted changes to an old value. `place` takes the domain of a change, and returns the index of the value
-/// to add.
+/// Adds the weighted changes to an old value. `place` takes the domain of a change (vertices or corners), and returns
+/// the index of the value to add.
 fn plus_changes<T>(old: T, changes: &[Change], place: impl Fn(Domain) -> usize) -> T
 where
     T: Value + Add<Output = T>,

@@ -160,7 +160,7 @@ fn change_tangents(mesh: &mut Mesh, linear: impl Fn(usize) -> DMat3) {
     }
 }
 
-/// Whether a column of corners holds the tangents of the mesh ([`CORNER_TANGENT`]) or of a morph target.
+/// Whether a corner attribute holds tangents, either of the mesh ([`CORNER_TANGENT`]) or of a morph target.
 pub fn holds_tangents(column: &Column) -> bool {
     column.name == CORNER_TANGENT.name || morph_tangent_of(&column.name).is_some()
 }

@@ -147,8 +147,8 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     replaced().map_err(|error| StoreError::new("write", path, error))
 }
 
-/// Returns the prefix of the names of the temporary folders of a process. A temporary folder remains after the end of
-/// the process only if the process is killed or the folder cannot be removed.
+/// Returns the text with which the names of all temporary folders of a process begin. A temporary folder remains after
+/// the end of the process only if the process is killed or the folder cannot be removed.
 pub fn temporary_prefix(process: u32) -> String {
     format!(".meshwright-{process}-")
 }

@@ -181,9 +181,9 @@ struct Surroundings {
     n_faces: usize,
     /// The sum of the area vectors of the faces that touch the first location.
     normal: DVec3,
-    /// The mean length of the edges of the faces that touch the first location.
+    /// The mean edge length of the faces that touch the first location.
     mean_edge_length: f64,
-    /// The faces that are locations of errors, for each object.
+    /// For each object, the faces that are error locations.
     faces: Vec<(String, Vec<FaceId>)>,
 }
 
@@ -354,7 +354,7 @@ fn marks(
 }
 
 /// Returns the offset from a mark to its name, for a camera in this direction and at this distance. The name is to the
-/// right of the mark, above it, and nearer to the camera.
+/// right of the mark, above the mark, and nearer to the camera than the mark.
 fn label_offset(direction: DVec3, distance: f64) -> DVec3 {
     let pixel = 2.0 * TANGENT * distance / f64::from(SIZE[1]);
     let right = DVec3::Y.cross(direction).normalize();
@@ -367,7 +367,8 @@ fn labels(locations: &[ErrorLocation], offset: DVec3) -> Vec<Label> {
     let named = locations
         .iter()
         .filter(|location| !location.name.is_empty());
-    // The name of a face is in the middle of the face. Names of vertices and edges are beside their dots and lines.
+    // The name of a face is in the middle of the face. The name of a vertex is beside its dot, and the name of an edge
+    // is beside its line.
     let label = |location: &ErrorLocation| {
         let is_face = location.points.len() > 2;
         let offset = if is_face { DVec3::ZERO } else { offset };

@@ -109,8 +109,8 @@ impl ColorBy {
         }
     }
 
-    /// Computes the values of the quantity for all meshes of a scene, with a common range. `targets` are the meshes to
-    /// which [`Quantity::DistanceTo`] measures distances.
+    /// Computes the values of the quantity for all meshes of a scene, with a common color range. `targets` are the
+    /// meshes to which [`Quantity::DistanceTo`] measures distances.
     ///
     /// # Errors
     ///

@@ -48,7 +48,8 @@ pub struct Subject<'s> {
 }
 
 impl<'s> Subject<'s> {
-    /// Prepares a scene with its overlays and numbers. Also returns a message for each texture that cannot be drawn.
+    /// Prepares a scene for drawing, with its overlays and with its numbers as colors. Also returns a message for each
+    /// texture that cannot be drawn.
     ///
     /// If `caption` is not empty, it is written below the view. `images` is called with the path of an image file, as
     /// written in a material, and returns the bytes of this file. `budget` is the memory budget in bytes.

@@ -55,10 +55,10 @@ pub struct Picture {
     #[serde(default)]
     pub highlight: Option<Elements>,
     /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. The defaults grow with the
-    /// shorter side of a view. For a side of 240 pixels, the width is 2.8 and the diameter 7.5. For 480 pixels, they
-    /// are 3.4 and 10; for 960 pixels, 4 and 13; for 1920 pixels, 8 and 26. If there are many highlighted vertices,
-    /// their default diameter is smaller. Edges behind a surface are drawn faintly, and vertices behind a surface as
-    /// rings.
+    /// shorter side of a view. For a side of 240 pixels, the width is 2.8 and the diameter is 7.5. The width and the
+    /// diameter are 3.4 and 10 for 480 pixels, 4 and 13 for 960 pixels, and 8 and 26 for 1920 pixels. If there are many
+    /// highlighted vertices, their default diameter is smaller. Edges behind a surface are drawn faintly, and vertices
+    /// behind a surface as rings.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub highlight_width: Option<f64>,
@@ -264,9 +264,10 @@ impl Picture {
         }
     }
 
-    /// Prepares a scene with its highlights and quantities. Also returns notes about parts of the scene that are not
-    /// drawn. `placed` is the scene in which every instance is a separate object: an object that several nodes show
-    /// becomes several objects. Selections of elements are evaluated in the local coordinates of each object.
+    /// Prepares a scene for drawing, with its highlights and the colors of `color_by`. Also returns notes about parts
+    /// of the scene that are not drawn. `placed` is the scene in which every instance is a separate object: an object
+    /// that several nodes show becomes several objects. Selections of elements are evaluated in the local coordinates
+    /// of each object.
     fn subject<'s>(
         &self,
         scene: &Scene,

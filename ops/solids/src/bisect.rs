@@ -24,10 +24,10 @@ use op::prelude::*;
 /// of each side are interpolated separately.
 ///
 /// With `keep: Front`, the part of the mesh behind the plane is removed. With `keep: Back`, the part in front of the
-/// plane is removed. If a face lies in the plane and its normal points to the front, the face belongs to the back,
-/// because it closes the solid behind the plane. Vertices that are left without a face are removed. If the remaining
-/// faces around a vertex form several fans (groups of faces connected across edges), each fan gets a separate copy of
-/// the vertex. No faces are added to close the cut. To close the cut, use `FillHoles` in a later step.
+/// plane is removed. A face in the plane whose normal points to the front belongs to the back, because the face closes
+/// the solid behind the plane. Vertices that are left without a face are removed. If the remaining faces around a
+/// vertex form several fans (groups of faces connected across edges), each fan gets a separate copy of the vertex. No
+/// faces are added to close the cut. To close the cut, use `FillHoles` in a later step.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bisect {

@@ -115,8 +115,8 @@ impl Step<'_> {
                     .at(["levels"])
                     .help(too_large.help()),
             );
-            // The plan continues with the largest number of levels that fits the memory budget, so that later steps do
-            // not report the same problem again.
+            // The plan continues with the largest possible number of levels within the memory budget. Otherwise, later
+            // steps would report the same problem again.
             levels = too_large.fits.unwrap_or(0);
         }
         let end = (0..levels).fold(start, |size, level| size.after(scheme, level));

@@ -37,9 +37,10 @@ use crate::simplify::triangles_problem;
 /// - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
 ///   interpolated across a line.
 /// - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
-///   vertices are the three corners of the old triangle at this position. A tagged vertex can move only if all corners
-///   of one of its triangles, or both of its neighbors on a line, also have the tag. All other tagged vertices keep
-///   their exact positions. Vertices with a sharpness (see `Crease`) also keep their exact positions.
+///   vertices are the three corners of the old triangle at this position. A tagged vertex can move only in two cases:
+///   all corners of one of its triangles have the tag, or both of its neighbors on a line have the tag. All other
+///   tagged vertices keep their exact positions. Vertices with a sharpness (see `Crease`) also keep their exact
+///   positions.
 ///
 /// The number of faces depends on the area of the mesh, which is not known before the run. Therefore the command
 /// `check`, which examines a recipe but does not run it, shows the largest number of faces that fits the memory budget.

@@ -73,8 +73,8 @@ pub enum SmoothBy {
         #[serde(default)]
         weights: SmoothWeights,
         /// The distance of the movement towards the mean, as a fraction of the distance from the vertex to the mean.
-        /// From 0 to 1, exclusive. Factors that would amplify noise are refused. With the default `pass_band`, factors
-        /// of more than about 0.7 are refused. Defaults to 0.33.
+        /// From 0 to 1, exclusive. Values that would amplify noise are refused: with the default `pass_band`, these are
+        /// values of more than about 0.7. Defaults to 0.33.
         #[serde(default = "taubin_factor")]
         factor: Fraction,
         /// The frequency below which shapes are kept. The frequencies of a mesh are from 0 (large shapes) to 2 (noise

@@ -26,7 +26,7 @@ use origins::{Origin, Source};
 /// numbers, tags, and other attributes that are never interpolated are copied from the corner of this face that is
 /// nearest to the point. Values of faces are copied from this face. If the changed mesh already has the attribute with
 /// the same type of values, the attribute is overwritten. If the changed mesh has the attribute with another type of
-/// values, the step fails. If the step does not name its objects with `on`, it changes all meshes except `from`.
+/// values, the step fails. Without `on`, the step changes all meshes except the object `from`.
 ///
 /// Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
 /// same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This prevents
@@ -36,9 +36,9 @@ use origins::{Origin, Source};
 /// chart is used.
 ///
 /// Elements that are farther from the source object than `within` keep their values, or get zeros if the attribute is
-/// new. All corners of a face are treated alike. If one of the corners or the center of the face is too far away, all
-/// corners of the face keep their values or get zeros. The report counts the elements that take no values from the
-/// source object.
+/// new. Either all corners of a face take values, or none of them. If one of the corners or the center of the face is
+/// too far away, all corners of the face keep their values or get zeros. The report counts the elements that take no
+/// values from the source object.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {

@@ -51,7 +51,7 @@ fn changes(name: &str, uv: &str) -> bool {
 }
 
 /// Sets the attribute `uv`. Removes the tangents of corners and the attributes that store how morph targets change
-/// `uv`, because they depend on the old values.
+/// `uv`, because they depend on the old values of `uv`.
 pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Report) {
     let values = DVec2::wrap(uvs);
     let column = Column {
@@ -106,7 +106,7 @@ pub(crate) fn error(error: &UvError) -> OpError {
     }
 }
 
-/// Returns a note with the percentage of the page that charts cover. `part` is the covered fraction.
+/// Returns a note with the percentage of the page that charts cover. `part` is the covered fraction of the page.
 pub(crate) fn coverage(part: f64) -> String {
     format!("the charts cover {:.1} % of the page", 100.0 * part)
 }

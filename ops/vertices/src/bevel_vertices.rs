@@ -23,9 +23,9 @@ use op::prelude::*;
 /// highest ids, in order of the selected vertices.
 ///
 /// Attribute values at a cut are interpolated between the two ends of the cut edge, so textures do not move on the
-/// surface. A new face has the values (material, tags) of one of the faces at the vertex. The choice of this face is
-/// not specified, but it is the same in every run. New edges have zero values (no crease, no tags). Normals are
-/// dropped.
+/// surface. A new face has the values (material, tags) of one of the faces at the vertex. It is not specified which of
+/// these faces is chosen, but the choice is the same in every run. New edges have zero values (no crease, no tags).
+/// Normals are dropped.
 ///
 /// A vertex cannot be beveled if it is on the boundary or has fewer than three edges. It also cannot be beveled if an
 /// earlier cut has left one of its edges too short for a second cut.

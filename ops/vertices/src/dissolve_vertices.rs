@@ -13,11 +13,11 @@ use op::prelude::*;
 /// Removes vertices and merges the faces around them.
 ///
 /// Vertices are removed in order of their ids. Each removal is checked against the mesh that the earlier removals have
-/// produced. If a vertex has three or more edges, all faces around it become one face. The merged face replaces the
-/// face with the lowest id and has its values. If the vertex is on the boundary, its two boundary edges also become one
-/// edge. If the vertex has only two edges, these edges become one edge, and each face beside this edge loses a corner.
-/// When two edges become one, the edge with the lower id is kept, with its values. The remaining elements keep their
-/// order and their values but get new ids. Normals are dropped.
+/// produced. If a vertex has three or more edges, all faces around it become one face. The merged face replaces the old
+/// face with the lowest id, and has the values of this old face. If the vertex is on the boundary, its two boundary
+/// edges also become one edge. If the vertex has only two edges, these edges become one edge, and each face beside this
+/// edge loses a corner. When two edges become one, the edge with the lower id is kept, with its values. The remaining
+/// elements keep their order and their values but get new ids. Normals are dropped.
 ///
 /// A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring vertex
 /// would be left with a single edge, because this edge would end inside a face. A removal is also refused if a face

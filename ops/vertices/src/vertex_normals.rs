@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn the_area_weighted_normal_depends_on_the_rim_only() {
-        // The area vectors of a closed fan sum to the area vector of its rim, for any position of the center.
+        // For any position of the center, the sum of the area vectors of a closed fan is the area vector of its rim.
         let rim = [
             (1.0, 0.0),
             (2.0, 0.5),

@@ -101,8 +101,8 @@ impl Graph {
         }
         let label = self.labels.get(whole).filter(|label| label.is_deformed());
         if let Some(label) = label {
-            // The part gets a copy of the label, because the extras of the label contain the names of the morph
-            // targets.
+            // The part gets a copy of the label of `whole`, because the extras of this label contain the names of the
+            // morph targets.
             let label = MeshLabel {
                 name: Some(part.to_owned()),
                 ..label.clone()

@@ -41,9 +41,9 @@ pub struct Animation {
 /// The keyframes of a property: values at given times.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnimationSampler {
-    /// The index in [`Graph::arrays`] of the times of the keyframes, in seconds, in ascending order.
+    /// The index of an array in [`Graph::arrays`]: the times of the keyframes in seconds, in ascending order.
     pub input: usize,
-    /// The index in [`Graph::arrays`] of the values of the keyframes.
+    /// The index of an array in [`Graph::arrays`]: the values of the keyframes.
     pub output: usize,
     /// How values between keyframes are computed.
     pub interpolation: Interpolation,
@@ -208,7 +208,7 @@ impl Graph {
         joints.map(map).collect()
     }
 
-    /// Returns one flag for each node: whether it is a joint, or the root of the joints of a skin.
+    /// Returns one flag for each node: whether the node is a joint or the root of the joints of a skin.
     pub fn joint_flags(&self) -> Vec<bool> {
         let mut flags = vec![false; self.nodes.len()];
         for skin in &self.skins {

@@ -1,6 +1,6 @@
 //! The canonical form of skins, morph weights and animations. These parts follow the other parts of a graph. Earlier
-//! versions of the form did not have these parts. A graph without these parts is still written as in the earlier
-//! versions.
+//! versions of the canonical form did not have these parts. A graph without skins, morph weights and animations is
+//! still written as in the earlier versions.
 
 use super::rig::{AnimatedProperty, Animation, AnimationSampler, Channel, Interpolation, Skin};
 use super::{Graph, MeshLabel};

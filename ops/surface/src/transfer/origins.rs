@@ -1,4 +1,5 @@
-//! Finds, for each element of the target, the elements of the source from which it takes its values.
+//! Finds, for each element of the target (the changed mesh), the elements of the source (the other mesh) from which it
+//! takes its values.
 
 use geometry::surface_index::{Nearest, SurfaceIndex, Triangle};
 use mesh::{Domain, HalfEdgeId, Mesh, Values};

@@ -154,8 +154,8 @@ mod tests {
         points[0][3] = points[0][0];
         assert!(Sides::of(&Patch::new(points).unwrap(), 1).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
-        // The side becomes a figure eight, whose start, middle (t = 0.5) and end are the same point. Therefore, the
-        // samples of the side for two segments coincide.
+        // The side becomes a figure eight, whose start, middle (t = 0.5) and end are the same point. Therefore, with
+        // two segments, all samples of the side coincide.
         points[0][2] = points[0][0] * 2.0 - points[0][1];
         assert!(Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 3).collapsed[0]);

@@ -40,9 +40,10 @@ use glam::{DVec2, DVec3};
 /// A coefficient of the scaled normal is treated as zero if the magnitude of each coordinate is at most this value.
 ///
 /// This threshold is well above the rounding errors of the coefficients (1e-14). The threshold is also above the
-/// coefficients at an edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()), but not
-/// exactly. Very close to a pole (within 1e-10 times the size of the patch), the first nonzero coefficient can be
-/// inaccurate and below this threshold. In this case, the next coefficient gives a more accurate normal.
+/// coefficients at a nearly collapsed edge: an edge that [`tessellate`](crate::tessellate()) treats as collapsed
+/// although its points differ slightly. Very close to a pole (within 1e-10 times the size of the patch), the first
+/// nonzero coefficient can be inaccurate and below this threshold. In this case, the next coefficient gives a more
+/// accurate normal.
 pub const VANISHING: f64 = 1e-10;
 
 /// Returns the limit of the normals along a line from `uv` into the patch. Up to three lines are tried. Returns `None`

@@ -27,15 +27,15 @@
 //! written, the problem is reported once, and the run continues without storing anything.
 //!
 //! **What is stored.** The record of a completed step is stored if the cache knows the state of the scene before the
-//! step, and the states of the input files of the step. Removed elements leave gaps in the arrays of a mesh. Storing a
-//! mesh would close its gaps and renumber its elements, so a scene with gaps in its meshes is not stored. All other
-//! scenes, and all output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored
-//! if storing it takes no longer than the steps that ran since a scene was last stored or loaded. The time for storing
-//! is estimated from [`BYTES_PER_SECOND`]. Therefore, even a run that stores all of its results takes at most about
-//! twice as long as a run without the cache. If storing a scene would take longer than computing it, the scene is not
-//! stored, and a later run computes it again. Larger output files are stored if storing them takes at most as long as
-//! loading the scene and running the step again. If several scenes contain the same long array, the array is stored
-//! only once. Therefore, if a step changes one attribute of a large mesh, only this attribute is added to the cache.
+//! step and the state of every input file. Removed elements leave gaps in the arrays of a mesh. Storing a mesh would
+//! close its gaps and renumber its elements, so a scene with gaps in its meshes is not stored. All other scenes, and
+//! all output files, are stored if they have fewer than [`ALWAYS_STORED`] bytes. A larger scene is stored if storing it
+//! takes no longer than the steps that ran since a scene was last stored or loaded. The time for storing is estimated
+//! from [`BYTES_PER_SECOND`]. Therefore, even a run that stores all of its results takes at most about twice as long as
+//! a run without the cache. If storing a scene would take longer than computing it, the scene is not stored, and a
+//! later run computes it again. Larger output files are stored if storing them takes at most as long as loading the
+//! scene and running the step again. If several scenes contain the same long array, the array is stored only once.
+//! Therefore, if a step changes one attribute of a large mesh, only this attribute is added to the cache.
 //!
 //! **Size.** At the end of a run that has stored something, the cache adds the number of stored bytes to its recorded
 //! size. If the new size exceeds the size limit, or if the recorded size is unknown, all files of the cache are listed.

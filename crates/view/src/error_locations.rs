@@ -83,7 +83,7 @@ pub fn draw_error_locations(
             visible.max(1e-6 * middle.abs().max_element()) / TANGENT,
         )
     });
-    // If the square of the distance of the camera overflows, there is no close-up.
+    // If the squared distance of the camera overflows, there is no close-up.
     let focus = focus.filter(|(_, distance)| (distance * distance).is_finite());
     let mut direction = preferred_direction(surroundings.normal, locations, center);
     if let (Some(first), Some((middle, distance))) = (locations.first(), focus) {

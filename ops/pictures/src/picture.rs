@@ -58,7 +58,7 @@ pub struct Picture {
     /// shorter side of a view. For a side of 240 pixels, the width is 2.8 and the diameter is 7.5. The width and the
     /// diameter are 3.4 and 10 for 480 pixels, 4 and 13 for 960 pixels, and 8 and 26 for 1920 pixels. If there are many
     /// highlighted vertices, their default diameter is smaller. Edges behind a surface are drawn faintly, and vertices
-    /// behind a surface as rings.
+    /// behind a surface are drawn as rings.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub highlight_width: Option<f64>,

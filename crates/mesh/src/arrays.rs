@@ -92,7 +92,7 @@ impl PartialEq for Mesh {
 }
 
 impl Mesh {
-    /// Creates a mesh from these arrays, without attributes. All elements are alive.
+    /// Creates a mesh from these arrays, without attributes. No element is marked as deleted.
     ///
     /// Use this function in operations that compute the arrays of a whole mesh themselves. This function does not check
     /// the [invariants](crate#invariants): the caller must ensure that the arrays satisfy them.

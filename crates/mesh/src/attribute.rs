@@ -61,7 +61,7 @@ pub enum Rule {
     /// operations also remove normals that would be wrong; see [`Mesh::remove_normals`](crate::Mesh::remove_normals).
     Normal,
     /// A new element gets the value of the old element that contained it. If no old element contained the new element,
-    /// the new element gets the zero value. For example, both parts of a split edge keep the tags of the edge; a new
+    /// the value of the new element is zero. For example, both parts of a split edge keep the tags of the edge; a new
     /// edge inside a face has no tags.
     Copy,
     /// The first edit that changes connectivity removes the column.

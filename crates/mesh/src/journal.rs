@@ -39,15 +39,14 @@ impl Change {
             .all(|entry| matches!(entry, Entry::Level(_)))
     }
 
-    /// Returns the size of the change in bytes. A change can also contain copies of whole arrays; these copies do not
-    /// count.
+    /// Returns the size of the change in bytes. If the change contains copies of whole arrays, these copies are not
+    /// counted.
     pub fn bytes(&self) -> usize {
         size_of_val(self.entries.as_slice()) + self.values.len()
     }
 }
 
-/// A copy of the mesh replaces the entries of a journal when they take more memory than the mesh: at least this number
-/// of bytes more.
+/// If the entries of a journal take at least this number of bytes more than the mesh, a copy of the mesh replaces them.
 const JOURNAL_ALLOWANCE: usize = 1 << 16;
 
 /// The open journal of a mesh.
@@ -66,7 +65,7 @@ pub(crate) struct Journal {
 struct Level {
     /// The index of the first entry of the level.
     start: usize,
-    /// The index, in [`Change::values`], of the first byte that the level recorded.
+    /// The index, in [`Change::values`], of the first byte that was recorded after this `begin`.
     first_value: usize,
     /// The lengths of the arrays at `begin`.
     lengths: Lengths,
@@ -146,7 +145,7 @@ impl Journal {
         }
     }
 
-    /// Records a copy of the whole mesh. The copy must have the state before the change.
+    /// Records `mesh`, which must be a copy of the whole mesh as it was before the change.
     fn record_whole(&mut self, mesh: Mesh) {
         self.record(|| Entry::Whole(Box::new(mesh)));
         if let Some(level) = self.levels.last_mut() {
@@ -187,7 +186,8 @@ impl Journal {
         element.index() < self.lengths[I::DOMAIN as usize]
     }
 
-    /// Records the old id at the index of `element` in an array, unless the element is newer than the innermost level.
+    /// Records the old id at the index of `element` in an array, unless the element was added after the innermost level
+    /// was opened.
     #[inline]
     pub(crate) fn record_link<I: Id>(&mut self, array: Array, element: I, old: u32) {
         if self.needs_entry(element) {
@@ -196,7 +196,7 @@ impl Journal {
         }
     }
 
-    /// Records the old position of a vertex, unless the vertex is newer than the innermost level.
+    /// Records the old position of a vertex, unless the vertex was added after the innermost level was opened.
     pub(crate) fn record_position(&mut self, v: VertexId, old: DVec3) {
         if self.needs_entry(v) {
             self.recorded.push_position(v, old);
@@ -204,7 +204,7 @@ impl Journal {
     }
 
     /// Records the old values of `element`. `columns` must be all columns of the domain of this element. Records
-    /// nothing if the element is newer than the innermost level.
+    /// nothing if the element was added after the innermost level was opened.
     pub(crate) fn record_values<I: Id>(&mut self, element: I, columns: &[Column]) {
         if self.needs_entry(element) {
             self.recorded

@@ -50,7 +50,7 @@
 //! | whole meshes | [`reverse`](Mesh::reverse) |
 //!
 //! In the documentation of the edits, V is the number of vertices, E the number of edges, and F the number of faces. If
-//! an edit removes an element, the element is marked dead (it "dies"). The id of a dead element is not reused until
+//! an edit removes an element, the element is marked dead. The id of a dead element is not reused until
 //! [`Mesh::compact`] renumbers the elements. If an edit that added elements is undone, later edits reuse the ids of
 //! these elements.
 //!

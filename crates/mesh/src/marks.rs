@@ -27,7 +27,7 @@ impl Marks {
         }
     }
 
-    /// Removes the mark of `i`. Also drops the last words of the list that are zero, so that equal sets have equal
+    /// Removes the mark of `i`. Also removes the zeros at the end of the list of words, so that equal sets have equal
     /// lists.
     pub(crate) fn remove(&mut self, i: usize) {
         if self.has(i) {

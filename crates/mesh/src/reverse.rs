@@ -12,7 +12,7 @@
 //! before h, prev(h), becomes the half-edge that leaves v. Therefore, prev(h) replaces h in three roles: it can be the
 //! stored half-edge of v, it can be the stored half-edge of the face, and it stores the values of the corner at v. At a
 //! boundary vertex, the new stored half-edge has no face, as required: if h has no face, prev(h) has no face either.
-//! Reversing twice restores the connectivity of all living elements.
+//! Reversing twice restores the connectivity of all elements that were not deleted.
 
 use crate::attribute::Attributes;
 use crate::{Connectivity, Domain, HalfEdgeId, Mesh};

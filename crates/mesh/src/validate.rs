@@ -15,7 +15,7 @@ pub enum Defect {
     /// The mesh has more elements than there are ids.
     #[error("the mesh has more elements than there are 32-bit ids")]
     TooMany,
-    /// An entry of an array refers to an element that does not exist or is dead.
+    /// An entry of an array refers to an element that does not exist or was removed.
     #[error(
         "the entry of the array `{array}` for {element} refers to an element that does not exist"
     )]
@@ -159,7 +159,7 @@ impl Mesh {
             && self.sum(|v| self.fan_of_vertex(v, usize::MAX)) == Some(self.n_half_edges())
     }
 
-    /// Whether a check finds no defect at any living element. Runs in parallel.
+    /// Whether a check finds no defect at any living (not deleted) element. Runs in parallel.
     fn all<I: Id>(&self, check: impl Fn(I, ReportDefect) + Sync + Send) -> bool {
         indices(self.domain_len(I::DOMAIN)).map(I::new).all(|id| {
             let is_clean = || finds_no_defect(|report| check(id, report));
@@ -167,7 +167,8 @@ impl Mesh {
         })
     }
 
-    /// Returns the sum of `term` over all living elements, computed in parallel; `None` if `term` returns a defect.
+    /// Returns the sum of `term` over all living (not deleted) elements, computed in parallel; `None` if `term` returns
+    /// a defect.
     fn sum<I: Id>(&self, term: impl Fn(I) -> Result<usize, Defect> + Sync + Send) -> Option<usize> {
         let term = |id| {
             if self.is_living(id) {

@@ -82,13 +82,13 @@ impl Mesh {
         }
     }
 
-    /// Copies all attribute values of element `from` to element `to`. The rules of the attributes do not matter.
+    /// Copies all attribute values of element `from` to element `to`, whatever the rules of the attributes are.
     #[inline]
     pub(crate) fn copy_values<I: Id>(&mut self, from: I, to: I) {
         self.edit_values(to, |column| column.values.copy(from.index(), to.index()));
     }
 
-    /// Exchanges the attribute values of two elements. The rules of the attributes do not matter.
+    /// Exchanges the attribute values of two elements, whatever the rules of the attributes are.
     pub(crate) fn swap_values<I: Id>(&mut self, a: I, b: I) {
         self.edit_values(b, |_| {});
         self.edit_values(a, |column| column.values.swap(a.index(), b.index()));

@@ -20,8 +20,9 @@ pub struct OutOfMemory {
     pub bytes: usize,
 }
 
-/// Returns `n` zero values. This function does not touch the memory of the array. Therefore, the threads that later
-/// fill the array share the work of mapping its pages. Large arrays request large pages from the system.
+/// Returns a list of `n` values that are all zero. This function does not touch the memory of the array. Therefore, the
+/// threads that later fill the array share the work of mapping its pages. Large arrays request large pages from the
+/// system.
 ///
 /// # Panics
 ///

@@ -3,8 +3,8 @@
 //!
 //! The old mesh has V vertices, E edges and F faces. Half-edge h runs from a to b and has face f; its twin t has face
 //! g. The corner at the origin of h becomes vertex h. If h has no face, two points on the edge replace the missing
-//! corners: vertex h near a, and a second vertex near b. The second vertex has the index 2E + r, where r is the rank of
-//! h among the half-edges without a face. Two new vertices lie beside h: p(h) near a, and q(h) near b:
+//! corners: vertex h near a, and a second vertex near b. The second vertex has the index 2E + r, where r is the number
+//! of half-edges without a face that come before h. Two new vertices lie beside h: p(h) near a, and q(h) near b:
 //!
 //! ```text
 //!                  |         f         |             along(h)  = 2h, from p(h) to q(h), in face f
@@ -41,7 +41,7 @@ use crate::links::{self, Link, Links};
 use crate::subset::Subset;
 use crate::topology::{Place, Topology, place_near_origin};
 
-/// A mesh without deleted elements. The subsets contain the elements that need special treatment.
+/// A mesh without deleted elements. Each field of the type [`Subset`] collects elements that need special treatment.
 pub(crate) struct DooSabin<'a> {
     pub(crate) mesh: &'a Mesh,
     n_edges: usize,
@@ -133,7 +133,7 @@ impl<'a> DooSabin<'a> {
         HalfEdgeId::new(2 * (self.first_join() + self.outer.below(h.index())))
     }
 
-    /// Returns the lowest id of the edges that contain a half-edge join(h).
+    /// The edges of the half-edges join(h) have the highest ids. Returns the lowest of these ids.
     fn first_join(&self) -> usize {
         4 * self.n_edges - self.doubled.len()
     }

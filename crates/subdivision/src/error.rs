@@ -1,4 +1,4 @@
-//! The errors of subdivision.
+//! The errors that subdivision can return.
 
 use mesh::{FaceId, VertexId};
 use progress::Cancelled;

@@ -18,8 +18,9 @@
 //! result as two calls that compute one level each. The results can differ from those of OpenSubdiv in one case: two
 //! pieces meet at a vertex, and one of them contains a semi-sharp edge (sharp on the first levels only). As long as
 //! this edge is sharp, the value of the other piece can stay unchanged. OpenSubdiv decides on the first level whether
-//! this value stays unchanged, and keeps the decision on all levels. If the pieces, their seam and their vertex have
-//! different semi-sharp values, the results on later levels can differ from those of OpenSubdiv.
+//! this value stays unchanged, and keeps the decision on all levels. If the edges inside the pieces, the seam between
+//! the pieces and the vertex have different semi-sharp values, the results on later levels can differ from those of
+//! OpenSubdiv.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -143,7 +144,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Returns the value of a new corner: the corner in the face of `h`, at the middle of `h`.
+    /// Returns the value of the new corner that lies in the old face of `h`, in the middle of `h`.
     fn on(&self, h: HalfEdgeId) -> DVec4 {
         let e = h.edge();
         let sharp = if self.seams[e.index()] {
@@ -174,7 +175,7 @@ impl<'a> Field<'a> {
         ends * (0.5 * sharp) + (smooth_end + sides) * (1.0 - sharp)
     }
 
-    /// Returns the value of a new corner: the corner in the face of `h`, at the origin of `h`.
+    /// Returns the value of the new corner that lies in the old face of `h`, at the origin of `h`.
     fn at(&self, h: HalfEdgeId) -> DVec4 {
         let v = self.mesh.origin(h);
         let start = self.mesh.vertex_half_edge(v).expect("a vertex of a face");
@@ -197,7 +198,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Returns the new value at a vertex with a single piece, computed by the rules for positions.
+    /// Returns the new value at a vertex whose corners all have the same value (they form a single piece). The rules
+    /// for positions are used.
     fn regular(&self, v: VertexId, start: HalfEdgeId, own: DVec4) -> DVec4 {
         let blend = self.sharpness.at_vertex(v, start);
         let by_rule = |rule: VertexRule<HalfEdgeId>| match rule {
@@ -317,8 +319,8 @@ impl VertexPieces {
         }
     }
 
-    /// Returns the state of piece `i`. `when` is `NOW` to use the sharpness on this level, or `NEXT` to use the
-    /// sharpness on the next level.
+    /// Returns how the value of piece `i` changes. `when` is `NOW` to use the sharpness on this level, or `NEXT` to use
+    /// the sharpness on the next level.
     fn state(&self, field: &Field, i: usize, when: usize) -> State {
         let (rule, n) = (field.rule, self.pieces.len());
         let own = self.sharpness(field)[when];

@@ -14,10 +14,10 @@
 //!      first(h) = 2h + (h & 1)       second(h) = first(h) ^ 2
 //! ```
 //!
-//! Each vertex stores one outgoing half-edge. An old vertex stores the first part of the half-edge that it stored
-//! before. If the old half-edge is on the boundary, its first part is on the boundary, too. A new vertex lies on an old
-//! edge, and stores the second part of one of the two half-edges of this edge. If the old edge is on the boundary, the
-//! part of the boundary half-edge is stored.
+//! Each vertex stores one outgoing half-edge. An old vertex stores the first part of the half-edge that the old mesh
+//! stores for this vertex. If that old half-edge is on the boundary, its first part is on the boundary, too. A new
+//! vertex lies on an old edge, and stores the second part of one of the two half-edges of this edge. If the old edge is
+//! on the boundary, this is the half-edge without a face.
 //!
 //! The four half-edges and the vertex of each old edge are computed from the old mesh only, so all old edges can
 //! be processed in parallel. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop
@@ -69,7 +69,7 @@ pub(crate) type PartLinks = ([HalfEdgeId; 2], [FaceId; 2]);
 /// The last entries of the arrays of the next level: the entries of the new elements that do not lie on old edges.
 pub(crate) struct AddedArrays<'n> {
     pub(crate) halves: Arrays<'n>,
-    /// The stored half-edges of the new vertices that do not lie on old edges.
+    /// For each new vertex that does not lie on an old edge, the half-edge that this vertex stores.
     pub(crate) vertex_half_edge: &'n mut [HalfEdgeId],
     pub(crate) face_half_edge: &'n mut [HalfEdgeId],
 }

@@ -1,7 +1,8 @@
-//! Faces with many corners. The value at the center of a face, or at a Doo-Sabin point in it, depends on all corners of
-//! the face. If the sum over all corners were computed again for each Doo-Sabin point, the time would grow with the
-//! square of the number of corners. Instead, three sums over all corners are computed once. Every new value is a
-//! weighted sum of the three sums and of the value at one corner.
+//! Faces with many corners. The value at the center of a face depends on all corners of the face. The same holds for
+//! the value at a Doo-Sabin point, which is a new vertex inside the face. If the sum over all corners were computed
+//! again for each Doo-Sabin point, the time would grow with the square of the number of corners. Instead, three sums
+//! over all corners are computed once. Every new value is a weighted sum of the three sums and of the value at one
+//! corner.
 //!
 //! Let x(0), .., x(n - 1) be the values at the n corners of a face, and let a be 2π/n:
 //!
@@ -80,7 +81,8 @@ impl LargeFaces {
         }
     }
 
-    /// Returns the index of the sum m of face `f`, which is the value at its center; `None` if the face is not large.
+    /// If face `f` is large, returns the index of its sum m, which is the value at the center of the face; otherwise,
+    /// returns `None`.
     pub(crate) fn center(&self, mesh: &Mesh, f: FaceId) -> Option<usize> {
         let (i, ..) = self.corners.get(&mesh.face_half_edge(f))?;
         Some(SUMS * i)

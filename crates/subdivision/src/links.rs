@@ -1,4 +1,5 @@
-//! Writes connectivity arrays in parallel. The entries of each new element depend only on its id and on the old mesh.
+//! Writes connectivity arrays in parallel. The array entries of a new element depend only on the id of this element and
+//! on the old mesh.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, VertexId};
 use progress::{Cancelled, Meter};

@@ -117,7 +117,7 @@ impl SparseMatrix {
 ///
 /// # Errors
 ///
-/// Returns the errors of [`subdivide`](crate::subdivide).
+/// Returns an error in the same cases as [`subdivide`](crate::subdivide).
 ///
 /// # Examples
 ///

@@ -7,10 +7,10 @@ use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
 use crate::fixtures::{corners, number};
 
-/// Computes a level by the method that is taught in courses. The new positions are computed first. Then every old edge
-/// is split in the middle, and every new edge between an old vertex and a new vertex is flipped. At the end, the
-/// vertices are moved to the new positions. Vertices have the same ids as in [`crate::subdivide`]; edges and faces do
-/// not.
+/// Computes a level in the way that courses teach: by splitting and flipping edges. The new positions are computed
+/// first. Then every old edge is split in the middle, and every new edge between an old vertex and a new vertex is
+/// flipped. At the end, the vertices are moved to the new positions. Vertices have the same ids as in
+/// [`crate::subdivide`]; edges and faces do not.
 pub(crate) fn by_splits_and_flips(old: &Mesh) -> Mesh {
     let positions = old.vertices().map(|v| moved(old, v));
     let positions: Vec<DVec3> = positions

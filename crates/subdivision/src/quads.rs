@@ -23,9 +23,9 @@
 //! out(h), where h is the first half-edge of the face.
 //!
 //! In a mesh of quads, the corners of face f are 4f to 4f + 3. The corner of a half-edge then follows from its position
-//! in the face. In other meshes, the corner indices are computed in advance. Only the first level can need computed
-//! corner indices, because afterwards all faces are quads. The idea is from Dupuy and Vanhoey, "A Halfedge Refinement
-//! Rule for Parallel Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.
+//! in the face. In other meshes, the corner indices are computed in advance. Only the first level can need these
+//! indices computed in advance, because afterwards all faces are quads. The idea is from Dupuy and Vanhoey, "A Halfedge
+//! Refinement Rule for Parallel Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -35,7 +35,7 @@ use crate::links::{self, Entries};
 use crate::parallel::{any, fill_uncounted};
 use crate::topology::{Place, Topology};
 
-/// A mesh without deleted elements, whose faces are split into quads.
+/// A mesh without deleted elements. Its faces will be split into quads.
 pub(crate) struct Quads<'a> {
     mesh: &'a Mesh,
     n_vertices: usize,
@@ -125,7 +125,8 @@ impl<'a> Quads<'a> {
         ([self.out(c), after], [FaceId::new(c), FaceId::new(next)])
     }
 
-    /// Returns the array entries of corner `c`: the two half-edges of its spoke, and the half-edge of its face.
+    /// Returns the array entries that corner `c` adds to the new mesh: the two half-edges of its spoke, and the
+    /// half-edge of its face.
     #[inline]
     fn spoke(&self, c: usize) -> Entries<2, 1> {
         let (h, f) = self.half_edge_of_corner(c);

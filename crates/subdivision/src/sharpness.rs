@@ -74,8 +74,8 @@ impl<K: Copy> VertexRule<K> {
 }
 
 impl<K: Copy> Blend<K> {
-    /// Returns the blend of a vertex. `at` is the sharpness of the vertex on this level and on the next level. `edges`
-    /// has each edge at the vertex and its sharpness on these two levels.
+    /// Returns the rules of a vertex, and how they are blended. `at` is the sharpness of the vertex on this level and
+    /// on the next level. `edges` has each edge at the vertex and its sharpness on these two levels.
     pub(crate) fn of(at: [f64; 2], edges: impl Iterator<Item = (K, [f64; 2])> + Clone) -> Self {
         let rule = |i: usize| VertexRule::of(at[i], edges.clone().map(|(k, s)| (k, s[i])));
         let now = rule(0);
@@ -116,8 +116,8 @@ impl SemiSharp {
         semi_sharp
     }
 
-    /// An edge with sharpness `s` has two parts on the next level, one at each end. Returns the sharpness of
-    /// the part at this vertex.
+    /// An edge with sharpness `s` has two parts on the next level, one at each end. Returns the sharpness of the edge's
+    /// part at this vertex.
     pub(crate) fn half_of(self, s: f64) -> f64 {
         if s <= 0.0 || s >= INFINITE || self.n < 2 {
             return decreased(s);
@@ -259,15 +259,15 @@ impl<'a> Sharpness<'a> {
         SemiSharp::of(self.creasing, edges.map(|h| self.edge(h.edge())))
     }
 
-    /// The next level divides the edge of `h` into two parts. Returns the sharpness with which the part at the origin
-    /// of `h` shapes the surface. On the boundary, this sharpness is infinite.
+    /// The next level divides the edge of `h` into two parts. Returns the sharpness with which the part of the edge at
+    /// the origin of `h` shapes the surface. On the boundary, this sharpness is infinite.
     pub(crate) fn of_half(&self, h: HalfEdgeId) -> f64 {
         let semi_sharp = self.semi_sharp(self.mesh.origin(h));
         semi_sharp.half_of(self.edge(h.edge()))
     }
 
-    /// The next level divides the edge of `h` into two parts. Returns the sharpness that is stored for the part at the
-    /// origin of `h`.
+    /// The next level divides the edge of `h` into two parts. Returns the sharpness that is stored for the part of the
+    /// edge at the origin of `h`.
     pub(crate) fn next_of_half(&self, h: HalfEdgeId) -> f64 {
         if self.edges.is_none() {
             0.0

@@ -97,8 +97,8 @@ impl Size {
     }
 
     /// Estimates how much the given levels, starting from this size, add to the progress [`Meter`](progress::Meter).
-    /// Most schemes add one for each new vertex, one for each old edge, and one for each new face. Levels of Sqrt3 and
-    /// Doo-Sabin add one for each new vertex and each new edge.
+    /// For most schemes, a level adds one for each new vertex, one for each old edge, and one for each new face. For
+    /// Sqrt3 and Doo-Sabin, a level adds one for each new vertex and one for each new edge.
     pub(crate) fn work(self, scheme: Scheme, levels: Range<u32>) -> u64 {
         let (mut size, mut sum) = (self, 0);
         for level in levels {
@@ -244,7 +244,7 @@ pub struct TooLarge {
     pub bytes: Option<u64>,
     /// The memory budget in bytes.
     pub budget: u64,
-    /// The highest of the checked levels that fits, if any.
+    /// The highest checked level whose mesh is not too large; `None` if there is no such level.
     pub fits: Option<u32>,
 }
 

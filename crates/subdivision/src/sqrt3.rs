@@ -20,7 +20,7 @@
 //! At a boundary, even and odd levels differ; levels are counted from 0. On even levels, boundary edges do not change.
 //! On odd levels, the mesh is the result of an even level, so each triangle at the boundary has exactly one boundary
 //! edge. The triangle gets two vertices on its boundary edge instead of a center: x is V + f, and y is V + F + r. Here
-//! r is the rank of the boundary half-edge of that edge among all boundary half-edges:
+//! r is the number of boundary half-edges that come before the boundary half-edge of that edge:
 //!
 //! ```text
 //!          c                  c                 T(h) is (a, b, m), next(h) = spoke(next(h)),
@@ -50,7 +50,7 @@ pub(crate) struct Sqrt3<'a> {
     n_vertices: usize,
     n_edges: usize,
     n_faces: usize,
-    /// The half-edges without a face, on odd levels only. The edges of these half-edges are cut in three.
+    /// On odd levels, the half-edges without a face, whose edges are cut in three; `None` on even levels.
     cut: Option<Subset>,
 }
 
@@ -164,7 +164,7 @@ impl<'a> Sqrt3<'a> {
         HalfEdgeId::new(2 * (self.n_edges + self.corner_number(h)))
     }
 
-    /// Returns the rank of the edge of `h` among the edges that are cut. `h` must have a face.
+    /// Returns how many of the cut edges have a lower id than the edge of `h`. `h` must have a face.
     #[inline]
     fn rank(&self, h: HalfEdgeId) -> usize {
         let cut = self.cut.as_ref();
@@ -177,7 +177,7 @@ impl<'a> Sqrt3<'a> {
         HalfEdgeId::new(2 * (self.n_edges + 3 * self.n_faces + self.rank(h)))
     }
 
-    /// Returns the new vertex at the end of the spoke of `h`: the center of its face, or the vertex that
+    /// Returns the new vertex at the end of the spoke of `h`: the center of the face of `h`, or the vertex that
     /// replaces the center.
     #[inline]
     fn end(&self, h: HalfEdgeId) -> VertexId {
@@ -351,7 +351,7 @@ impl Topology for Sqrt3<'_> {
         if spoke >= 3 * self.n_faces {
             return None;
         }
-        // The spokes at both ends of a cut edge are parts of that edge.
+        // If an edge is cut, the spokes of the corners at both of its ends are parts of the edge.
         let h = self.of_corner(spoke);
         let mut parents = [h, self.prev(h)].into_iter();
         let cut = parents.find(|&h| self.side(h) == Side::Cut);

@@ -1,4 +1,4 @@
-//! A subset of the elements of a mesh, with the ranks of the elements inside and outside of it.
+//! A subset of the elements of a mesh. Both members and non-members have ranks: their positions in the order of ids.
 
 use std::ops::Range;
 

@@ -27,8 +27,8 @@ pub(crate) trait Topology: Sync {
     /// If new face `i` is a part of an old face, returns the old face.
     fn face(&self, i: usize) -> Option<usize>;
 
-    /// Edge `i` of the next level can be the part at one end of an old edge. In this case, returns the half-edge that
-    /// starts at this end of the old edge. The default is for schemes that split each old edge in two and number the
+    /// If edge `i` of the next level is the part of an old edge next to one of its ends, returns the half-edge of the
+    /// old edge that starts at this end. The default is for schemes that split each old edge in two and number the
     /// parts of old edges before all other edges.
     fn half(&self, i: usize) -> Option<HalfEdgeId> {
         self.edge(i).map(|_| HalfEdgeId::new(i))
@@ -116,8 +116,8 @@ pub(crate) fn add_doo_sabin(mesh: &Mesh, h: HalfEdgeId, mut add: impl FnMut(Half
     }
 }
 
-/// Returns the weight of the `j`-th of the `n` corners of a face, counted from the corner whose Doo-Sabin point is
-/// computed.
+/// For a Doo-Sabin point of a face with `n` corners, returns the weight of the `j`-th corner, counted from the corner
+/// to which the point belongs.
 #[inline]
 fn doo_sabin_weight(n: usize, j: usize) -> f64 {
     match (n, j) {

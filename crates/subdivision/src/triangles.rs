@@ -51,7 +51,8 @@ impl Triangles<'_> {
         ([self.cut(f, k), first(next)], [corner(k), corner(after_k)])
     }
 
-    /// Returns the array entries of an old face: the six half-edges inside it, and its four new faces.
+    /// Returns the array entries that replace an old face: the six half-edges inside it, and the first half-edges of
+    /// its four new faces.
     #[inline]
     fn cut_face(&self, f: FaceId) -> Entries<6, 4> {
         let h0 = self.0.face_half_edge(f);

@@ -55,8 +55,8 @@ pub fn subdivide(
 ///
 /// # Errors
 ///
-/// Returns the errors of [`subdivide`], and [`SubdivisionError::TooLarge`] if the result would exceed the
-/// budget. The size is checked before any level is computed.
+/// Returns an error in the same cases as [`subdivide`], and [`SubdivisionError::TooLarge`] if the result would exceed
+/// the budget. The size is checked before any level is computed.
 pub fn subdivide_within(
     mesh: &Mesh,
     rules: Rules,

@@ -37,7 +37,7 @@ impl IntoIterator for Attributes {
 }
 
 /// For each element of a new mesh, the element of the old mesh from which the values are copied. If an entry is `NONE`,
-/// the new element gets zero values.
+/// the values of the new element are zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources<'a> {
     /// The old vertex for each new vertex.
@@ -122,9 +122,9 @@ impl Attributes {
         }
     }
 
-    /// Appends the values of `other`. `lens` contains the number of elements of each domain in the mesh of `self`.
-    /// `other_lens` contains the same numbers for the mesh of `other`. If only one of the two meshes has a column, the
-    /// column gets zero values for the elements of the other mesh. If two columns have the same name but different
+    /// Appends the values of `other`. `lens` contains the number of elements of each domain in the mesh of `self`, and
+    /// `other_lens` the number of elements of each domain in the mesh of `other`. If only one of the two meshes has a
+    /// column, its values are zero for the elements of the other mesh. If two columns have the same name but different
     /// types, the column of `other` is skipped, and its domain and name are returned.
     pub fn append(
         &mut self,

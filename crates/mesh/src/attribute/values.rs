@@ -188,7 +188,7 @@ impl Values {
         }
     }
 
-    /// Appends zero values up to length `n`.
+    /// Appends zeros until the list has `n` values.
     pub(super) fn grow(&mut self, n: usize) {
         fn run<T: Value>(v: &mut Vec<T>, n: usize) {
             v.resize(n, T::default());

@@ -46,8 +46,8 @@ impl Buckets {
         let ends = starts.clone().skip(1).chain([vertices.len()]);
         let lengths: Vec<usize> = starts.zip(ends).map(|(start, end)| end - start).collect();
         let mut corners = crate::zeroed(vertices.len());
-        // 3. Fill the buckets. Each stored corner increments the entry of its bucket. At the end, the entry of a bucket
-        //    is the start of the next bucket.
+        // 3. Fill the buckets. Each stored corner increments the entry of its bucket. When all corners are stored, the
+        //    entry of each bucket has become the start of the next bucket.
         first[1..]
             .par_chunks_mut(width)
             .zip(pieces(&mut corners, lengths))

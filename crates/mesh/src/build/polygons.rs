@@ -12,7 +12,7 @@ pub(super) const NONE: u32 = u32::MAX;
 /// Polygons as flat arrays: polygon f has the corners with the indices `offsets[f]..offsets[f + 1]`, and `corners`
 /// contains the vertex of each corner.
 ///
-/// A corner also represents the side from it to the next corner of its polygon.
+/// A corner also represents the side of its polygon that starts at this corner.
 pub(super) struct Polygons<'a> {
     pub(super) offsets: &'a [u32],
     pub(super) corners: &'a [u32],
@@ -88,8 +88,8 @@ fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
         .zip(offsets.par_chunks(BLOCK))
         .enumerate()
         .for_each(|(block, (faces, firsts))| {
-            // The loop visits the polygons from last to first. For each polygon, the slots of its corners are split off
-            // the end of the unfilled slice.
+            // The loop visits the polygons from last to first. The slots for the corners of each polygon are at the end
+            // of the part that is not yet filled, and are split off from it.
             let mut unfilled = faces;
             for (i, first) in firsts.iter().enumerate().rev() {
                 let Some(of_polygon) = unfilled.split_off_mut((first - firsts[0]) as usize..)

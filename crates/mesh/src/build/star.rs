@@ -37,8 +37,8 @@ pub(super) struct Star {
     pub(super) has_non_manifold_edge: bool,
 }
 
-/// An outgoing half-edge of a vertex, or none. The half-edge is the side that starts at a corner c (stored as 2c), or
-/// the boundary half-edge that is the twin of this side (stored as 2c + 1).
+/// An outgoing half-edge of a vertex, or none. The number 2c stands for the side that starts at corner c, and 2c + 1
+/// for the boundary half-edge that is the twin of this side.
 #[derive(Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
 pub(super) struct Outgoing(u32);

@@ -14,8 +14,8 @@ impl Mesh {
     ///         |                    |
     /// ```
     ///
-    /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, n edges and
-    /// one face. Each new edge joins a new vertex to the next. The first corner of the new face is the first new
+    /// `v` is removed. The n edges of `v` keep their ids and end at the cuts. The new elements are n vertices, n edges
+    /// and one face. Each new edge joins a new vertex to the next. The first corner of the new face is the first new
     /// vertex. The new vertices and edges are in clockwise order around `v`, starting at the first edge of
     /// [`vertex_half_edges`](Self::vertex_half_edges). The numbers of vertices, edges and faces grow by n - 1, n and 1.
     /// A face gains one corner for each of its corners at v.
@@ -24,7 +24,8 @@ impl Mesh {
     /// interpolated within their face, separately on each side of a seam. Attributes that are not interpolated are
     /// copied from v. The new face has the values of the face to the left of the first edge in
     /// [`vertex_half_edges`](Self::vertex_half_edges). Each corner of the new face copies the values of another corner
-    /// at the same cut: the corner of the face to the left of the cut edge, as seen from v. New edges have zero values.
+    /// at the same cut: the corner of the face to the left of the cut edge, as seen from v. The attribute values of new
+    /// edges are zero.
     ///
     /// Returns the new face.
     ///
@@ -79,12 +80,12 @@ impl Mesh {
     ///     /               \            /               \
     /// ```
     ///
-    /// `e` and its ends a, b die. The n other edges at a and b keep their ids and end at the cuts. The new elements are
-    /// n vertices, n edges and one face. Each new edge joins a new vertex to the next. The first corner of the new face
-    /// is the first new vertex. The new vertices and edges are in clockwise order around e. The cuts at a (the origin
-    /// of the first half-edge of e) come first, starting with the edge after e. The cuts at b follow. The numbers of
-    /// vertices, edges and faces grow by n - 2, n - 1 and 1. The faces beside e keep their number of corners. Any other
-    /// face gains one corner for each of its corners at a and b.
+    /// `e` and both of its ends, a and b, are removed. The n other edges at a and b keep their ids and end at the cuts.
+    /// The new elements are n vertices, n edges and one face. Each new edge joins a new vertex to the next. The first
+    /// corner of the new face is the first new vertex. The new vertices and edges are in clockwise order around e. The
+    /// cuts at a (the origin of the first half-edge of e) come first, starting with the edge after e. The cuts at b
+    /// follow. The numbers of vertices, edges and faces grow by n - 2, n - 1 and 1. The faces beside e keep their
+    /// number of corners. Any other face gains one corner for each of its corners at a and b.
     ///
     /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face to the
     /// left of the first half-edge of e.

@@ -25,7 +25,7 @@ impl Mesh {
     /// this edge. Each new corner lies on one of the two loops. If the new face has an edge of this loop, the corner
     /// copies the corner at the same vertex on the other side of this edge. A triangle has no edge of the shorter loop.
     /// For the corner of a triangle at the shorter loop, the edge of the last quad before the triangle is used instead.
-    /// New edges have zero attribute values.
+    /// The attribute values of new edges are zero.
     ///
     /// Returns the new faces.
     ///

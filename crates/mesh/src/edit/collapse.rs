@@ -16,21 +16,20 @@ impl Mesh {
     ///        d               d                 d-----+           d-----+
     /// ```
     ///
-    /// The merged vertex v is the end with the lower id; the other end and `e` die. A triangle beside `e` dies, and its
-    /// other two edges become one: the edge at v remains, and the other edge dies. A face beside `e` with more than
-    /// three corners loses one corner, and a hole beside `e` loses one edge. Let V, E and F be the numbers of vertices,
-    /// edges and faces. Inside a triangle mesh, V, E and F decrease by 1, 3 and 2; on its boundary, by 1, 2 and 1. V -
-    /// E + F stays the same. No ids are added, and all other elements keep their ids.
+    /// The merged vertex v is the end with the lower id; the other end and `e` are removed. A triangle beside `e` is
+    /// removed, and its other two edges become one: the edge at v remains, and the other edge is removed. A face beside
+    /// `e` with more than three corners loses one corner, and a hole beside `e` loses one edge. Let V, E and F be the
+    /// numbers of vertices, edges and faces. Inside a triangle mesh, V, E and F decrease by 1, 3 and 2; on its
+    /// boundary, by 1, 2 and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
     ///
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not interpolate:
     /// these keep their values at v. At v, the corners of the faces beside `e` get interpolated values. Each corner is
     /// interpolated within its face, so both sides of a seam stay separate. A face that is not beside `e` can also have
-    /// a corner at an end of `e`. For each attribute, the old value of this corner is compared with the old values of
-    /// the corners at the same end in the faces beside `e`. If one of these values is equal, the corner gets the new
-    /// value that the same face has at v. Otherwise, the corner keeps its old value. When two edges become one, the
-    /// remaining edge gets the larger of the two values of each floating-point attribute, so that creases are
-    /// preserved. A tag is set if either edge had this tag. Attributes of other types keep the value of the remaining
-    /// edge.
+    /// a corner at an end of `e`. For each attribute, the old value of this corner is compared with the old value that
+    /// each face beside `e` has at the same end. If the values are equal for one of these faces, the corner gets the
+    /// new value of this face at v. Otherwise, the corner keeps its old value. When two edges become one, the remaining
+    /// edge gets the larger of the two values of each floating-point attribute, so that creases are preserved. A tag is
+    /// set if either edge had this tag. Attributes of other types keep the value of the remaining edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),
@@ -128,9 +127,9 @@ impl Mesh {
         self.kill(e);
         self.kill(removed);
         // If a face beside e was a triangle, it now has only two edges. Of these two edges, the edge that ends at the
-        // removed vertex is removed. Around the face of the first half-edge of e, the edge at b comes after e, and the
-        // edge at a comes before e. Around the face of the second half-edge, the edge at a comes after e, and the edge
-        // at b comes before e.
+        // removed vertex is removed. Around the face of the first half-edge of e, the edge at vertex b comes after e,
+        // and the edge at vertex a comes before e. Around the face of the second half-edge, the edge at vertex a comes
+        // after e, and the edge at vertex b comes before e.
         for (i, h) in sides.into_iter().enumerate().filter(|&(i, _)| vanishes[i]) {
             let after = self.next(h);
             if (removed == b) == (i == 0) {
@@ -221,9 +220,10 @@ impl Mesh {
         Ok(())
     }
 
-    /// Checks the outer faces of each triangle beside `e`: the faces on the far sides of its other two edges, which
-    /// become one edge. The outer faces must not both be missing, and must not both be the face on the other side of
-    /// `e`. If the face on the other side of `e` is a triangle, neither outer face is allowed to be this triangle.
+    /// For each triangle beside `e`, checks its two outer faces: the faces on the far sides of its other two edges,
+    /// which become one edge. At least one outer face must exist, and at least one must differ from the face on the
+    /// other side of `e`. If the face on the other side of `e` is a triangle, neither outer face is allowed to be this
+    /// triangle.
     fn check_outer_faces(&self, e: EdgeId) -> Result<(), EditError> {
         for h in e.half_edges() {
             if !self.is_beside_triangle(h) {
@@ -257,7 +257,7 @@ impl Mesh {
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
         // Finds one of the two faces at the merged vertex. A face beside e remains after the collapse if it is not a
-        // triangle. If both faces beside e are triangles, the next face around a remains.
+        // triangle. If both faces beside e are triangles, the next face around vertex a remains.
         let around = match apexes {
             [None, _] => ab,
             [_, None] => ba,
@@ -320,7 +320,7 @@ impl Mesh {
         }
     }
 
-    /// The edge `e` will collapse to its point with the parameter `t`. Sets the values of the corners at both ends of
+    /// The edge `e` will collapse to its point at the parameter `t`. Sets the values of the corners at both ends of
     /// `e`.
     fn mix_corners_along(&mut self, e: EdgeId, t: f64, v: VertexId) {
         if !self.has_corner_columns() {

@@ -67,8 +67,8 @@ impl Mesh {
     ///
     /// The diagonals become edges, in order, each from its first corner to its second. The first part keeps the id and
     /// the first corner of the face. The other parts become new faces, numbered in order, with the values of the old
-    /// face. Corners at diagonals have the values of the old corners; new edges have zero values. A diagonal can join
-    /// two vertices that already share an edge.
+    /// face. The new corners at the ends of a diagonal have the values of the old corners there. The attribute values
+    /// of new edges are zero. A diagonal can join two vertices that already share an edge.
     ///
     /// Returns all parts as faces, in the order of [`polygon_parts`].
     ///

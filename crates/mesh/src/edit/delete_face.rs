@@ -230,8 +230,8 @@ mod tests {
                 let mut mesh = shape.clone();
                 let result = mesh.delete_faces(&deleted);
                 assert_eq!(mesh.defects(), []);
-                // If two fans are left at a vertex, the builder splits the vertex and reports this repair; the deletion
-                // is refused.
+                // If two fans would be left at a vertex, the builder splits the vertex and reports this repair, but the
+                // deletion is refused.
                 assert_eq!(result.is_ok(), report.is_clean(), "{result:?}");
                 if let Err(error) = result {
                     assert!(matches!(error, EditError::Pinch(_)));
@@ -256,7 +256,7 @@ mod tests {
         for shape in sample_shapes() {
             for f in shape.faces() {
                 let error = checked_edit_mesh(&shape, |mesh| mesh.delete_face(f)).err();
-                // Finds corners on the boundary at which the face has no boundary edge.
+                // Finds the corners of the face at boundary vertices where neither side of the face is a boundary edge.
                 let pinched = shape.face_half_edges(f).filter(|&h| {
                     let sides = [h, shape.prev(h)].map(|h| shape.is_boundary_edge(h.edge()));
                     shape.is_boundary_vertex(shape.origin(h)) && sides == [false; 2]

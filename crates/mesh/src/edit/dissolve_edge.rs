@@ -11,9 +11,9 @@ impl Mesh {
     ///    +-----a-----+          +-----a-----+
     /// ```
     ///
-    /// The face with the lower id remains and keeps its values; `e` and the other face die. One edge and one face are
-    /// removed, so the Euler characteristic V - E + F stays the same. All other ids and values stay the same. This edit
-    /// is the inverse of [`split_face`](Self::split_face).
+    /// The face with the lower id remains and keeps its values; `e` and the other face are removed. Because one edge
+    /// and one face are removed, the Euler characteristic V - E + F stays the same. All other ids and values stay the
+    /// same. This edit is the inverse of [`split_face`](Self::split_face).
     ///
     /// Returns the remaining face.
     ///
@@ -44,8 +44,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`dissolve_edge`](Self::dissolve_edge). [`EditError::Seam`] is returned only if `seams` is
-    /// [`Seams::Refuse`].
+    /// Returns an error in the same cases as [`dissolve_edge`](Self::dissolve_edge), but [`EditError::Seam`] only if
+    /// `seams` is [`Seams::Refuse`].
     pub fn dissolve_edge_with(&mut self, e: EdgeId, seams: Seams) -> Result<FaceId, EditError> {
         self.check_edge(e)?;
         let sides = e.half_edges();
@@ -76,8 +76,8 @@ impl Mesh {
         }
 
         self.drop_columns_by_rule();
-        // At b, the half-edge that stores the corner of f remains. At a, the half-edge that stores the corner of the
-        // removed face g remains. This half-edge gets the values of the corner of f at a.
+        // At the end b, the half-edge of f remains. At the end a, the half-edge of the removed face g remains instead,
+        // so it gets the values of the corner of f at this end.
         self.copy_values(ab, after_a);
         let moved: Vec<HalfEdgeId> = self.face_half_edges(g).collect();
         for h in moved {

@@ -23,11 +23,11 @@ impl Mesh {
     ///    |           |        |           |
     /// ```
     ///
-    /// Of the merged faces, the face with the lowest id remains and keeps its values; the other merged faces die. If
-    /// two edges become one, the edge with the lower id remains and keeps its values. `v` and its other edges die. The
-    /// Euler characteristic V - E + F stays the same. All other ids and values stay the same. This edit is the inverse
-    /// of [`poke_face`](Self::poke_face). It is also the inverse of [`split_edge`](Self::split_edge), unless that split
-    /// has cut a triangle.
+    /// Of the merged faces, the face with the lowest id remains and keeps its values; the other merged faces are
+    /// removed. If two edges become one, the edge with the lower id remains and keeps its values. `v` and its other
+    /// edges are removed. The Euler characteristic V - E + F stays the same. All other ids and values stay the same.
+    /// This edit is the inverse of [`poke_face`](Self::poke_face). It is also the inverse of
+    /// [`split_edge`](Self::split_edge), unless that split has cut a triangle.
     ///
     /// Returns the merged face. If `v` has two edges, returns the face beside these edges. If `v` has two edges and two
     /// faces, returns the face with the lower id.
@@ -67,8 +67,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`dissolve_vertex`](Self::dissolve_vertex). [`EditError::Seam`] is returned only if
-    /// `seams` is [`Seams::Refuse`].
+    /// Returns an error in the same cases as [`dissolve_vertex`](Self::dissolve_vertex), but [`EditError::Seam`] only
+    /// if `seams` is [`Seams::Refuse`].
     pub fn dissolve_vertex_with(&mut self, v: VertexId, seams: Seams) -> Result<FaceId, EditError> {
         self.check_vertex(v)?;
         let spokes: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();

@@ -26,18 +26,19 @@ impl Mesh {
     /// extruded again. The edges and vertices inside the faces keep their ids too. The vertices and edges of the rim
     /// stay in place with the rest of the mesh, and the moved faces get new vertices and edges. The new elements are
     /// numbered in the order of the half-edges h: in order of `faces`, and counter-clockwise from the first half-edge
-    /// of each face. Let h be a half-edge of the rim from v to w, and v' and w' the copies of v and w. Then h adds the
-    /// vertex v', the edges v'-w' and v-v' in this order, and a side face, which stores h as its half-edge.
+    /// of each face. Let h be a half-edge of the rim from v to w, and v' and w' the copies of v and w. For this h, the
+    /// edit adds the vertex v', the edges v'-w' and v-v' in this order, and a side face, which stores h as its
+    /// half-edge.
     ///
     /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. If all faces of an open
     /// sheet are extruded, the sheet becomes a box without a bottom, because no face remains where the sheet was. If
     /// all faces of a closed component are extruded, there is no rim, and the component only moves. If two edges of the
     /// rim are parallel (they join the same two vertices), their copies are parallel too.
     ///
-    /// **Attributes.** The copies of the vertices and edges of the rim have the values of the originals. The new edges
-    /// that join a vertex v to its copy v' have zero values. A side face has the values of the extruded face f that
-    /// shares an edge with it. At v and v', the corners of the side face have the values of the old corner of f at v.
-    /// Therefore, there is no seam between f and the side face. Normals do not change.
+    /// **Attributes.** The copies of the vertices and edges of the rim have the values of the originals. The attribute
+    /// values of the new edges that join a vertex v to its copy v' are zero. A side face has the values of the extruded
+    /// face f that shares an edge with it. At v and v', the corners of the side face have the values of the old corner
+    /// of f at v. Therefore, there is no seam between f and the side face. Normals do not change.
     ///
     /// Returns the side faces, in the order of the half-edges of the rim.
     ///
@@ -142,17 +143,17 @@ impl Mesh {
 
 /// The half-edges of a set of faces, and their rim.
 pub(super) struct Rim {
-    /// All half-edges of the faces, in order.
+    /// The half-edges of all faces of the set, face by face.
     half_edges: Vec<HalfEdgeId>,
     /// The half-edges of the rim, in the order of `half_edges`. A half-edge of the rim is called a base, because a side
     /// face stands on it. The twin of a base has no face, or has a face outside of the set.
     pub(super) bases: Vec<HalfEdgeId>,
-    /// The index in `bases` of each base.
+    /// For each base (a half-edge of the rim), its index in `bases`.
     index_of_base: BTreeMap<HalfEdgeId, usize>,
     /// For each base, the index of the base that starts where this base ends, in the same fan of faces.
     after: Vec<usize>,
-    /// The half-edges that lead from a vertex of the rim into the set. Each entry also has the index of a base: the
-    /// base that leaves the same vertex in the same fan.
+    /// The half-edges that lead from a vertex of the rim into the set. Each entry also has the index, in `bases`, of
+    /// the base that leaves the same vertex in the same fan of faces.
     inner: Vec<(HalfEdgeId, usize)>,
 }
 

@@ -67,16 +67,16 @@ impl Mesh {
     ///    +-----+--h--+          +-----+-----+
     /// ```
     ///
-    /// All ids stay the same; the new faces and edges are numbered in the order of `ears`. New faces have the
-    /// values of the face beside `h`; new edges have zero values. All new corners at a vertex have the values
+    /// All ids stay the same; the new faces and edges are numbered in the order of `ears`. New faces have the values of
+    /// the face beside `h`. The attribute values of new edges are zero. All new corners at a vertex have the values
     /// that the corner at this vertex gets in [`fill_hole`](Self::fill_hole).
     ///
     /// Returns the triangles.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`fill_hole`](Self::fill_hole), and [`EditError::Full`] if there are not enough ids for
-    /// the new elements. After an error, the mesh is unchanged.
+    /// Returns an error in the same cases as [`fill_hole`](Self::fill_hole), and [`EditError::Full`] if there are not
+    /// enough ids for the new elements. After an error, the mesh is unchanged.
     ///
     /// # Panics
     ///
@@ -126,7 +126,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`fill_hole`](Self::fill_hole).
+    /// Returns an error in the same cases as [`fill_hole`](Self::fill_hole).
     pub fn rim(&self, h: HalfEdgeId) -> Result<Vec<HalfEdgeId>, EditError> {
         self.check_hole(h)?;
         let rim: Vec<HalfEdgeId> = self.loop_half_edges(h).collect();

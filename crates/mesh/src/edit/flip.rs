@@ -60,7 +60,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`flip_edge`](Self::flip_edge). [`EditError::Seam`] is returned only if `seams` is
+    /// Returns an error in the same cases as [`flip_edge`](Self::flip_edge), but [`EditError::Seam`] only if `seams` is
     /// [`Seams::Refuse`].
     pub fn flip_edge_with(&mut self, e: EdgeId, seams: Seams) -> Result<(), EditError> {
         self.check_edge(e)?;

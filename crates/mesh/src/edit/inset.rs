@@ -23,15 +23,15 @@ impl Mesh {
     /// If `f` has n corners, the numbers of vertices, edges and faces grow by n, 2n and n. The inner face keeps the id
     /// of `f`, and its first corner is the copy of the first corner of `f`. Existing vertices and edges do not move. As
     /// in [`extrude_faces`](Self::extrude_faces), the new elements are numbered in the order of the half-edges h of
-    /// `f`, counter-clockwise from the first. Let h run from v to w, and let v' and w' be the copies of v and w. Then h
-    /// adds the vertex v', the edges v'-w' and v-v' in this order, and the face (v, w, w', v'), which stores h as its
-    /// half-edge.
+    /// `f`, counter-clockwise from the first. Let h run from v to w, and let v' and w' be the copies of v and w. For
+    /// this h, the edit adds the vertex v', the edges v'-w' and v-v' in this order, and the face (v, w, w', v'), which
+    /// stores h as its half-edge.
     ///
     /// Each new vertex, and each corner at a new vertex, gets values that are interpolated with t = `fraction`. At t =
     /// 0, the interpolated values are the values at the outer corner. At t = 1, they are the mean of the values at all
     /// corners of the face. Attributes that are not interpolated are copied from the outer corner. Inner edges have the
-    /// values of the outer edges, and the faces of the ring have the values of `f`. The edges between outer and inner
-    /// vertices have zero values.
+    /// values of the outer edges, and the faces of the ring have the values of `f`. The attribute values of the edges
+    /// between outer and inner vertices are zero.
     ///
     /// Returns the faces of the ring, in the order of the half-edges of `f`.
     ///
@@ -61,8 +61,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`inset_face`](Self::inset_face). Also returns [`EditError::BadNumber`] if `height` or a
-    /// raised coordinate is not finite.
+    /// Returns an error in the same cases as [`inset_face`](Self::inset_face). Also returns [`EditError::BadNumber`] if
+    /// `height` or a raised coordinate is not finite.
     pub fn bevel_face(
         &mut self,
         f: FaceId,
@@ -107,7 +107,7 @@ impl Mesh {
     }
 
     /// Sets the interpolated values of each element of `to`. At `t` = 0, an element gets the values of the element with
-    /// the same index in `from`. At `t` = 1, an element gets the mean of all elements of `from`.
+    /// the same index in `from`. At `t` = 1, an element gets the mean of the values of all elements of `from`.
     fn mix_with_mean<I: Id>(&mut self, from: &[I], t: f64, to: &[I]) {
         let &[.., last] = to else { return };
         // The last element of `to` stores the mean until its own values are set at the end of the loop.

@@ -33,16 +33,16 @@ use crate::{EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 /// Why an edit was refused. A refused edit leaves the mesh unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum EditError {
-    /// The vertex does not exist, or is dead.
+    /// The vertex does not exist, or was removed.
     #[error("{0} is not a vertex of the mesh")]
     NoSuchVertex(VertexId),
-    /// The half-edge does not exist, or is dead.
+    /// The half-edge does not exist, or was removed.
     #[error("{0} is not a half-edge of the mesh")]
     NoSuchHalfEdge(HalfEdgeId),
-    /// The edge does not exist, or is dead.
+    /// The edge does not exist, or was removed.
     #[error("{0} is not an edge of the mesh")]
     NoSuchEdge(EdgeId),
-    /// The face does not exist, or is dead.
+    /// The face does not exist, or was removed.
     #[error("{0} is not a face of the mesh")]
     NoSuchFace(FaceId),
     /// The edit needs an edge with a face on both sides.
@@ -211,8 +211,8 @@ impl Mesh {
         require(self.face(h).is_none(), EditError::NotBoundary(h))
     }
 
-    /// Checks that there are ids for this many additional half-edges. An edit that calls this function adds no more
-    /// vertices than half-edges, and no more faces than half-edges.
+    /// Checks that there are ids for this many additional half-edges. An edit that calls this function adds at most as
+    /// many vertices as half-edges, and at most as many faces as half-edges.
     fn check_room(&self, half_edges: usize) -> Result<(), EditError> {
         let n = self.connectivity.next.len().max(self.positions.len()) + half_edges;
         require(n < u32::MAX as usize, EditError::Full)

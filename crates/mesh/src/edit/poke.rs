@@ -22,8 +22,8 @@ impl Mesh {
     /// corners. The first half-edge of each new edge starts at m.
     ///
     /// Interpolated vertex attributes at m are the mean of the attributes of the corners; other vertex
-    /// attributes are zero. The corners at m get the mean of the corner values of the face; the other corners
-    /// keep their values. New faces have the values of `f`, and new edges have zero values.
+    /// attributes are zero. The corners at m get the mean of the corner values of the face; the other corners keep
+    /// their values. New faces have the values of `f`. The attribute values of new edges are zero.
     ///
     /// Returns m. [`dissolve_vertex`](Self::dissolve_vertex) is the inverse.
     ///
@@ -53,8 +53,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`poke_face`](Self::poke_face), and [`EditError::BadNumber`] if `position` is not
-    /// finite.
+    /// Returns an error in the same cases as [`poke_face`](Self::poke_face), and [`EditError::BadNumber`] if `position`
+    /// is not finite.
     pub fn poke_face_at(&mut self, f: FaceId, position: DVec3) -> Result<VertexId, EditError> {
         self.check_face(f)?;
         check_finite(&[position])?;

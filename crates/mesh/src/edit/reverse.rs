@@ -80,8 +80,8 @@ impl Mesh {
         }
         for &f in faces {
             let first = self.face_half_edge(f);
-            // The first half-edge of the face must start at the same vertex as before. `next` is already reversed, so
-            // it leads to the half-edge that now starts there.
+            // The first half-edge of the face must start at the same vertex as before. The links `next` are already
+            // reversed, so `next` of this half-edge is the half-edge that now starts at that vertex.
             self.set_face_half_edge(f, self.next(first));
             let corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
             for h in corners {

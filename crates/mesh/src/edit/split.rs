@@ -69,7 +69,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`split_edge`](Self::split_edge).
+    /// Returns an error in the same cases as [`split_edge`](Self::split_edge).
     pub fn insert_vertex(&mut self, e: EdgeId, t: f64) -> Result<EdgeId, EditError> {
         self.check_edge(e)?;
         if !(t > 0.0 && t < 1.0) {
@@ -91,8 +91,8 @@ impl Mesh {
         self.set_face(bm, self.face(ma));
         self.copy_values(ma, bm);
         self.mix_values(am, after_b, t, mb);
-        // The half-edge from m to a now stores the corner at m, and the half-edge from b to m stores the corner at b.
-        // The values at m are interpolated between the corners at b and at a.
+        // The half-edge from m to vertex a now stores the corner at m, and the half-edge from b to m stores the corner
+        // at b. The values at m are interpolated between the corners at vertex b and at vertex a.
         let at_a = self.next(ma);
         self.mix_values(bm, at_a, 1.0 - t, ma);
         self.set_next(am, mb);

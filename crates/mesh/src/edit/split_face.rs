@@ -15,8 +15,8 @@ impl Mesh {
     /// `x` and `y` are half-edges of the face. Each of them stands for the corner at which it starts. The new edge runs
     /// from the origin of `x` to the origin of `y`. The old face keeps `y` and gets the first half-edge of the new
     /// edge. The new face gets `x` and the second half-edge of the new edge. Each corner at an end of the new edge has
-    /// the values of the old corner at this end. The new face has the values of the old face, and the new edge has zero
-    /// values.
+    /// the values of the old corner at this end. The new face has the values of the old face. The attribute values of
+    /// the new edge are zero.
     ///
     /// Returns the new edge.
     ///

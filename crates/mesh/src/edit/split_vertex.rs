@@ -28,8 +28,8 @@ impl Mesh {
     /// removed triangles, call `split_vertex`, then `split_face`.
     ///
     /// The new vertex is at `position` and has the attributes of v. On each side of the new edge, the face has a corner
-    /// at both ends of the edge; both corners have the values of the old corner on this side. The new edge has zero
-    /// values.
+    /// at both ends of the edge; both corners have the values of the old corner on this side. The attribute values of
+    /// the new edge are zero.
     ///
     /// Returns the new edge.
     ///
@@ -252,8 +252,8 @@ mod tests {
             (vw, triangles[0], keep_left),
             (wv, triangles[1], keep_right),
         ] {
-            // If the merged edge moved to the new vertex, the opposite corner of the triangle comes after the
-            // new edge.
+            // On the face of h, the apex of the triangle comes after h if the merged edge leaves the target of h, and
+            // before h if the merged edge leaves the origin of h.
             let is_after = (h == vw) != keep;
             if is_triangle && is_after {
                 mesh.split_face(h, mesh.next(mesh.next(h))).unwrap();

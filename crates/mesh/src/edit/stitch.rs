@@ -25,11 +25,11 @@ impl Mesh {
     ///
     /// The ends a and a' in the picture become one vertex, and b and b' become one vertex. At one end, the two vertices
     /// can already be the same vertex before the stitch. Of the two vertices at each end, the vertex with the lower id
-    /// remains and keeps its position and values; the other vertex dies. The edge with the lower id remains, keeps its
-    /// values and gets both faces; the other edge dies. Corners keep their values, so different UVs form a seam. If the
-    /// stitch would leave a hole with only two edges, these two edges are stitched too. A list of polygons cannot
-    /// represent a hole with two edges. To close a whole cut, stitch its pairs of edges one after the other, starting
-    /// at an end of the cut.
+    /// remains and keeps its position and values; the other vertex is removed. The edge with the lower id remains,
+    /// keeps its values and gets both faces; the other edge is removed. Corners keep their values, so different UVs
+    /// form a seam. If the stitch would leave a hole with only two edges, these two edges are stitched too. A list of
+    /// polygons cannot represent a hole with two edges. To close a whole cut, stitch its pairs of edges one after the
+    /// other, starting at an end of the cut.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.

@@ -148,7 +148,7 @@ fn entries_larger_than_the_mesh_are_replaced_by_a_copy_of_it() {
     let recorded = mesh.journal.as_ref().unwrap().recorded.bytes();
     assert!(recorded < mesh.bytes(), "{recorded}");
     let end = mesh.clone();
-    // Inner levels still work.
+    // Nested calls of `begin` still work.
     mesh.begin();
     mesh.split_edge(EdgeId::new(3), 0.5).unwrap();
     mesh.rollback();

@@ -91,7 +91,7 @@ pub fn limit(
 ///
 /// # Errors
 ///
-/// Returns the errors of [`limit`](limit()).
+/// Returns an error in the same cases as [`limit`](limit()).
 pub fn limit_distance(
     mesh: &Mesh,
     rules: Rules,

@@ -33,7 +33,7 @@ pub(crate) struct Star {
 impl Star {
     /// Replaces this star by the star of vertex `v`. `start` is the outgoing half-edge that the mesh stores for `v`. If
     /// `v` is on the boundary, this is a boundary half-edge. With Catmull-Clark, if a face around the vertex is not a
-    /// quad, reads the star of the next level, which has the same limit.
+    /// quad, this star becomes the star of the vertex on the next level instead, which has the same limit.
     pub(crate) fn read(
         &mut self,
         mesh: &Mesh,
@@ -88,14 +88,14 @@ impl Star {
         self.shrink();
     }
 
-    /// Whether no element is semi-sharp, so that sharpness no longer changes with levels.
+    /// Whether no element of the star is semi-sharp. If this is true, the sharpness is the same on all further levels.
     pub(crate) fn is_settled(&self) -> bool {
         let settled = |s: f64| s <= 0.0 || s >= INFINITE;
         settled(self.vertex_sharpness) && self.spoke_sharpness.iter().all(|&s| settled(s))
     }
 
-    /// Returns the rule of the vertex. In a settled star, the rule is the same on all levels. The rule
-    /// identifies spokes by their indices.
+    /// Returns the rule of the vertex. If the star is settled (no element is semi-sharp), the rule is the same on all
+    /// levels. The rule identifies spokes by their indices.
     pub(crate) fn rule(&self) -> VertexRule<usize> {
         VertexRule::of(
             self.vertex_sharpness,

@@ -31,9 +31,9 @@ impl<'a> ConnectivityBuilder<'a> {
                 last = pieces.second(h);
                 let m = pieces.on_edge(h.edge());
                 new.origin[last.index()] = m;
-                // The new vertex m on the edge stores the second part of one of the two half-edges of the edge. It is a
-                // part of the second half-edge if that half-edge has no face, and otherwise a part of the first
-                // half-edge.
+                // The new vertex m on the old edge stores a half-edge that leaves it. If the second half-edge of the
+                // old edge has no face, m stores the second part of that half-edge; otherwise, m stores the second part
+                // of the first half-edge.
                 if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
                     new.vertex_half_edge[m.index()] = last;
                 }

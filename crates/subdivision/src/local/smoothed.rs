@@ -51,7 +51,7 @@ impl AnyMasks for LocalMasks<'_> {
     }
 
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
-        // If faces get new vertices at their centers, all values of a level that cuts all faces are computed together.
+        // If faces get new vertices at their centers, the values are computed together, as if the level cut all faces.
         // If the values were computed one by one, each vertex of a large face would sum all corners of that face again.
         let full_level = if self.pieces.centers.len() == 0 {
             Vec::new()

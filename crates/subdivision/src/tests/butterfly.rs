@@ -64,8 +64,9 @@ fn cubic_functions_over_a_regular_sheet_are_reproduced_inside() {
 
 #[test]
 fn a_tetrahedron_has_the_masks_of_valence_three() {
-    // The new vertex on the edge from a to b is the mean of two sums. The first sum is 3/4 a + 5/12 b - 1/12 (c + d);
-    // the second sum has a and b swapped. Because c + d = -(a + b), this mean is 7/12 (a + b) + 1/12 (a + b).
+    // The new vertex on the edge from a to b is the mean of two sums, one for each end of the edge. The first sum is
+    // 3/4 a + 5/12 b - 1/12 (c + d); the second sum has a and b swapped. Because c + d = -(a + b), this mean is 7/12
+    // (a + b) + 1/12 (a + b).
     let old = shapes::tetrahedron();
     let new = once(&old);
     for e in old.edges() {

@@ -24,7 +24,8 @@ fn a_level_equals_splitting_all_edges_and_flipping_new_ones() {
 #[test]
 fn a_level_equals_subdividing_a_list_of_triangles() {
     for (name, mesh) in fixtures::all() {
-        // After the first level, a pillow has two edges between the same vertices.
+        // After the first level, a pillow (two triangles with the same vertices) has two edges between the same
+        // vertices.
         let levels = if name == "pillow" { 1 } else { 2 };
         let mut old = mesh;
         for level in 1..=levels {

@@ -27,8 +27,8 @@ enum State {
     /// As long as the vertex, or an edge between the faces that share the value, is semi-sharp, the value does not
     /// change. On later levels, it is smoothed along the border of these faces.
     Sharp,
-    /// The vertex has two values. This value does not change as long as an edge between the faces of the other value is
-    /// semi-sharp.
+    /// The vertex has two values, this one and another one. This value stays unchanged while an edge between two faces
+    /// that share the other value is semi-sharp.
     Dependent,
 }
 

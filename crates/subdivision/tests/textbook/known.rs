@@ -93,7 +93,7 @@ fn loop_of_a_tetrahedron() {
     assert_has(&warren, [0.25, 0.25, 0.25]);
     assert_has(&warren, [0.5, 0.0, 0.0]);
 
-    // (5/8 - (3/8 - 1/8)^2) / 3 = 3/16: for three neighbors both weights are equal.
+    // For three neighbors, both formulas for the weight of a neighbor give (5/8 - (3/8 - 1/8)^2) / 3 = 3/16.
     let loops = one_level(&tetrahedron(), LOOP);
     assert_has(&loops, [0.25, 0.25, 0.25]);
 }
@@ -123,9 +123,9 @@ fn doo_sabin_of_a_cube() {
 
 #[test]
 fn butterfly_of_a_tetrahedron() {
-    // Both ends of the edge have three neighbors, so the new vertex is the mean of two sums. The first sum is 3/4 a +
-    // 5/12 b - 1/12 (c + d); the second sum has a and b swapped. Because a + b + c + d = 0, this mean is (7/12 + 1/12)
-    // (a + b).
+    // Both ends of the edge have three neighbors, so the new vertex is the mean of two sums, one for each end. The
+    // first sum is 3/4 a + 5/12 b - 1/12 (c + d); the second sum has a and b swapped. Because a + b + c + d = 0, this
+    // mean is (7/12 + 1/12) (a + b).
     let fine = one_level(&tetrahedron(), Scheme::Butterfly);
     assert_has(&fine, [4.0 / 3.0, 0.0, 0.0]);
     assert_has(&fine, [1.0, 1.0, 1.0]);

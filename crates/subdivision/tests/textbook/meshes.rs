@@ -306,7 +306,7 @@ pub(crate) enum Pattern {
     ManyEdges,
     /// Few sharp vertices.
     Vertices,
-    /// Sharp edges and vertices of all kinds.
+    /// Many sharp edges and some sharp vertices.
     Mixed,
     /// Sharpness of at most 1, so that all sharp elements become smooth within one level.
     Fractions,
@@ -340,7 +340,8 @@ impl Pattern {
         };
         let mut mesh = mesh.clone();
         let adjacency = Adjacency::new(mesh.positions.len(), &mesh.faces);
-        // Adds noise to fractional values. Without noise, a sum could be 1 up to rounding.
+        // Adds noise to each sharpness that is not a whole number. Without noise, a sum of sharpness values could be 1
+        // up to rounding.
         let sharpness = |random: &mut Random| {
             let s: f64 = random.one_of(choice);
             if s.fract() == 0.0 {
@@ -374,9 +375,9 @@ pub(crate) enum Islands {
     Two,
     /// Faces belong to one of four islands.
     Four,
-    /// The corners of about 15 % of the vertices have one of two random values.
+    /// At about 15 % of the vertices, each corner has one of two random values.
     Torn,
-    /// All corners have one of two random values.
+    /// At each vertex, each corner has one of two random values.
     Shattered,
 }
 
@@ -390,7 +391,8 @@ impl Islands {
         Self::Shattered,
     ];
 
-    /// Returns a copy of the mesh with random corner values, which follow the pattern `self`.
+    /// Returns a copy of the mesh with random corner values. The pattern `self` decides which corners at a vertex get
+    /// the same value.
     pub(crate) fn on(self, mesh: &Polygons, random: &mut Random) -> Polygons {
         let n = 4;
         let numbers: Vec<Vec<DVec2>> = (mesh.positions.iter())

@@ -110,7 +110,8 @@ impl Sharpness {
                 .collect()
         };
         let halves = halves_of(&|e| edges[e]);
-        // The sharpness stored for boundary edges has no effect; it decreases by the uniform rule.
+        // The sharpness that is stored for a boundary edge does not shape the surface. On each level, it decreases by
+        // the uniform rule.
         let mut stored_halves: BTreeMap<Edge, [f64; 2]> = halves_of(&stored);
         for (e, halves) in &mut stored_halves {
             if adjacency.is_boundary_edge(*e) {
@@ -169,8 +170,8 @@ impl Sharpness {
     }
 
     /// If the rule of a vertex changes on the next level, the two rules are blended. Returns the weight of the current
-    /// rule. Of the vertex and its edges to `neighbors`, only the elements that become smooth matter: the weight is the
-    /// mean of their sharpness, limited to 1.
+    /// rule. The weight is computed from the vertex and its edges to `neighbors`: it is the mean sharpness of those
+    /// elements that become smooth, limited to 1.
     pub(crate) fn fraction(&self, v: usize, neighbors: &[usize]) -> f64 {
         let mut ending = Vec::new();
         if self.vertices[v] > 0.0 && self.children[v] <= 0.0 {

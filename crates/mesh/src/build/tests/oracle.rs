@@ -34,8 +34,8 @@ impl Random {
     }
 }
 
-/// Returns the expected result for polygons that keep their orientation: the arrays, and a list of the input vertices
-/// from which the vertices of the result come. A copy comes from the vertex that was split.
+/// Returns the expected result for polygons that keep their orientation: the arrays and, for each vertex of the result,
+/// the input vertex from which it comes. If a vertex of the result is a copy, it comes from the vertex that was split.
 fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usize>) {
     let is_valid = |p: &&Vec<u32>| {
         let unique: std::collections::BTreeSet<_> = p.iter().collect();
@@ -109,7 +109,8 @@ fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usiz
             first_sides.push(c);
         }
     }
-    // At the target of each boundary half-edge, the boundary continues along the boundary half-edge that starts there.
+    // For each vertex on the boundary, finds the boundary half-edge that starts there. It follows the boundary
+    // half-edge that ends there.
     let mut boundary = BTreeMap::new();
     for &c in first_sides.iter().filter(|&&c| twin[c].is_none()) {
         boundary.insert(origin_of(next[c]), half_edge[c].twin());

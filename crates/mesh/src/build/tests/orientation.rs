@@ -13,7 +13,7 @@ fn reversed(offsets: &[u32], corners: &[u32], faces: &[usize]) -> Vec<u32> {
     corners
 }
 
-/// Checks that the maps of the result give the half-edge of each corner and the edge of each side.
+/// Checks the two maps of the result: from each corner to its half-edge, and from each side to its edge.
 fn check_maps(offsets: &[u32], corners: &[u32], built: &BuildOutput) {
     let edges = built.edges_of_sides(offsets);
     for (f, w) in offsets.windows(2).enumerate() {

@@ -62,8 +62,8 @@ fn creases_keep_their_length_and_decrease_only_between_chosen_faces() {
         CREASE,
         (0..mesh.n_edges()).map(|e| 1.0 + e as f64).collect(),
     );
-    // Each edge has a different sharpness. The parts that have the sharpness of an edge must together be as long as
-    // this edge.
+    // Each edge has a different sharpness. For each old edge, the new edges with its sharpness must together be as long
+    // as the old edge.
     let faces: Vec<bool> = (0..mesh.n_faces()).map(|f| f < 2).collect();
     let new = refined(&mesh, &faces, MIDPOINT, 3);
     let crease = new.get(CREASE).unwrap();

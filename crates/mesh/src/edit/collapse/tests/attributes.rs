@@ -171,8 +171,8 @@ fn a_collapse_can_be_undone_and_redone() {
 
 #[test]
 fn the_link_condition_also_works_for_ends_with_many_edges() {
-    // Two fans of 40 triangles around 0 and 1, joined by two triangles at the edge 0-1. The rims of the fans
-    // form one loop. The rims meet at c and d, the third corners of the two triangles.
+    // Two fans of 40 triangles around 0 and 1, joined by two triangles at the edge 0-1. The rims (the outer edges) of
+    // the fans form one loop. The two rims meet at the vertices c and d, the third corners of the two triangles.
     let n = 40;
     let rim: Vec<u32> = (2..2 + 2 * n).collect();
     let fan = |(i, &v): (u32, &u32)| {

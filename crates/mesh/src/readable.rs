@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Formats a number for people, with six significant digits. Numbers whose magnitude is below 1e-5 or at least 1e15 are
 /// in scientific notation. All other numbers keep all digits before the decimal point. A number that is not finite is
-/// written as `too large`: coordinates are always finite, so only an overflow produces a number that is not finite.
+/// written as `too large`. Coordinates are always finite, so only an overflow produces such a number.
 pub fn readable(x: f64) -> String {
     if !x.is_finite() {
         return "too large".to_owned();

@@ -183,7 +183,7 @@ impl Mesh {
 
     // ---- The invariants, in the order of the crate's documentation ----------------------------
 
-    /// Checks invariant 1 of the crate's documentation.
+    /// Checks invariant 1 of the crate's documentation: the lengths of the arrays.
     pub(crate) fn check_lengths(&self, report: ReportDefect) {
         let c = &self.connectivity;
         let n = c.next.len();
@@ -205,7 +205,7 @@ impl Mesh {
         }
     }
 
-    /// Checks invariant 2 of the crate's documentation.
+    /// Checks invariant 2 of the crate's documentation: the ids that are stored for a half-edge.
     fn check_entries_of_half_edge(&self, h: HalfEdgeId, report: ReportDefect) {
         let has_face = self.face(h).is_none_or(|f| self.has_face(f));
         check_entry("next", h, self.has_edge(self.next(h).edge()), report);
@@ -291,8 +291,8 @@ impl Mesh {
         })
     }
 
-    /// Checks invariant 5 of the crate's documentation. Returns the number of corners of a face, or `max + 1` if the
-    /// face has more than `max` corners.
+    /// Checks invariant 5 of the crate's documentation: the loop of a face. Returns the number of corners of a face, or
+    /// `max + 1` if the face has more than `max` corners.
     fn loop_of_face(&self, f: FaceId, max: usize) -> Result<usize, Defect> {
         let first = self.face_half_edge(f);
         if self.face(first) != Some(f) {
@@ -311,8 +311,8 @@ impl Mesh {
         }
     }
 
-    /// Checks invariants 6 and 7 of the crate's documentation. Returns the number of outgoing half-edges of a vertex,
-    /// or `max + 1` if there are more than `max`.
+    /// Checks invariants 6 and 7 of the crate's documentation: the half-edges around a vertex. Returns the number of
+    /// outgoing half-edges of a vertex, or `max + 1` if there are more than `max`.
     fn fan_of_vertex(&self, v: VertexId, max: usize) -> Result<usize, Defect> {
         let Some(first) = self.vertex_half_edge(v) else {
             return Ok(0);
@@ -337,14 +337,14 @@ impl Mesh {
         Ok(n)
     }
 
-    /// Checks invariant 8 of the crate's documentation.
+    /// Checks invariant 8 of the crate's documentation: positions are finite.
     fn check_position(&self, v: VertexId, report: ReportDefect) {
         if !self.position(v).is_finite() {
             report(Defect::NotFinite(v));
         }
     }
 
-    /// Checks invariant 9 of the crate's documentation.
+    /// Checks invariant 9 of the crate's documentation: the lengths of the attribute columns.
     fn check_columns(&self, report: ReportDefect) {
         for (domain, column) in self.attributes.iter() {
             if column.values.len() != self.domain_len(domain) {

@@ -101,14 +101,14 @@ impl Mesh {
     }
 
     /// Interpolates the attribute values of elements `a` and `b` at the parameter `t` (0 at `a`, 1 at `b`), and stores
-    /// the result at element `to`. Attributes whose rule does not interpolate are not changed.
+    /// the result at element `to`. Only attributes whose rule interpolates are changed.
     #[inline]
     pub(crate) fn mix_values<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
         self.edit_values(to, |column| column.mix(a, b, t, to));
     }
 
-    /// Sets the attribute values of element `to` to the mean of the values of the elements `from`. Attributes whose
-    /// rule does not interpolate are not changed. `from` is allowed to contain `to`.
+    /// Sets the attribute values of element `to` to the mean of the values of the elements `from`. Only attributes
+    /// whose rule interpolates are changed. `from` is allowed to contain `to`.
     pub(crate) fn average_values<I: Id>(&mut self, from: &[I], to: I) {
         self.edit_values(to, |column| column.average(from, to));
     }

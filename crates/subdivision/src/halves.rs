@@ -76,7 +76,7 @@ pub(crate) struct AddedArrays<'n> {
 
 /// Builds the connectivity of the next subdivision level. The links of a half-edge are its next half-edge and its face.
 /// The parts of old edges come first; `parts` gives the links of the two parts of each old half-edge. `fill_added`
-/// writes the new elements that do not lie on old edges. `vertices`, `edges` and `faces` are the numbers of these
+/// writes the new elements that do not lie on old edges. `vertices`, `edges` and `faces` are the numbers of these added
 /// elements.
 pub(crate) fn split_edges(
     mesh: &Mesh,

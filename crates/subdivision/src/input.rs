@@ -8,8 +8,8 @@ use crate::error::SubdivisionError;
 use crate::parallel::any;
 use crate::rules::Scheme;
 
-/// The largest absolute value of a coordinate that can be subdivided. Each new position is a weighted sum of fewer than
-/// 2^32 old positions, in which a position can occur several times. With this limit for coordinates, the sum stays
+/// The largest absolute value of a coordinate that subdivision accepts. Each new position is a weighted sum of fewer
+/// than 2^32 old positions, in which a position can occur several times. With this limit for coordinates, the sum stays
 /// finite.
 pub const MAX_COORDINATE: f64 = 1e290;
 

@@ -27,8 +27,8 @@
 //!
 //! # Polygons
 //!
-//! Chosen faces are cut into one quad for each corner. A neighboring face that is not chosen is not cut. It gets
-//! additional corners: the new vertices on its common edges with chosen faces.
+//! Chosen faces are cut into one quad for each corner. A face that is not chosen stays whole. On its common edges with
+//! chosen faces, the new vertices become additional corners of this face.
 
 mod builder;
 mod closure;

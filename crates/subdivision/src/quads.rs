@@ -109,7 +109,7 @@ impl<'a> Quads<'a> {
         ((0..c % 4).fold(start, |h, _| self.mesh.next(h)), f)
     }
 
-    /// Returns a half-edge of the spoke of corner `c`: the half-edge that ends at the center.
+    /// Of the two half-edges of the spoke of corner `c`, returns the one that ends at the center.
     #[inline]
     fn out(&self, c: usize) -> HalfEdgeId {
         HalfEdgeId::new(4 * self.n_edges + 2 * c)

@@ -107,14 +107,14 @@ pub enum Creasing {
 pub enum FaceVarying {
     /// Values are smoothed everywhere. Along a seam, values are smoothed as along the boundary of the mesh.
     None,
-    /// Like `None`, but a value at a vertex does not change if only one face at this vertex has the value.
+    /// Like `None`, but a value at a vertex stays unchanged if only one face at this vertex has the value.
     CornersOnly,
-    /// Like `CornersOnly`, but values also do not change at a vertex with three or more different values. At a vertex
-    /// with two different values, each value belongs to a set of faces. Both values stay unchanged if one of these
-    /// sets is not contiguous, or if a sharp edge runs between two faces of the same set.
+    /// Like `CornersOnly`, but values also stay unchanged at a vertex with three or more different values. At a vertex
+    /// with two different values, each value belongs to a set of faces. Both values stay unchanged if one of these sets
+    /// is not contiguous, or if a sharp edge runs between two faces of the same set.
     CornersPlus1,
-    /// Like `CornersPlus1`, but values also do not change at the ends of seams. If one value at a vertex does not
-    /// change, no value at this vertex changes.
+    /// Like `CornersPlus1`, but values also stay unchanged at the ends of seams. If one value at a vertex stays
+    /// unchanged, all values at this vertex stay unchanged.
     CornersPlus2,
     /// Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
     Boundaries,

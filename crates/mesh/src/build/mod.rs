@@ -17,9 +17,9 @@
 //! repairs:
 //!
 //! - Two polygons that share an edge have a consistent orientation if their sides run along the edge in opposite
-//!   directions. A part consists of polygons that are connected through edges that exactly two polygons share; each
-//!   part is treated separately. If the polygons of a part can get a consistent orientation, they form two groups. The
-//!   first group has the same orientation as the first polygon of the part, and the second group the opposite
+//!   directions. Polygons belong to the same part if they are connected through edges that exactly two polygons share.
+//!   Each part is treated separately. If the polygons of a part can get a consistent orientation, they form two groups.
+//!   The first group has the same orientation as the first polygon of the part, and the second group the opposite
 //!   orientation. The smaller group is reversed. If both groups have the same size, the second group is reversed. If a
 //!   part cannot get a consistent orientation, none of its polygons is reversed. The first corner of a reversed polygon
 //!   stays the first.

@@ -72,8 +72,8 @@ impl Mesh {
         self.collapse_edge_at(e, 0.5)
     }
 
-    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to the point at `t` on the edge. `t` is 0 at the
-    /// origin of the first half-edge of the edge, and 1 at the target of this half-edge.
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), but to the point at `t` on the edge. `t` is 0 at
+    /// the origin of the first half-edge of the edge, and 1 at the target of this half-edge.
     ///
     /// # Errors
     ///
@@ -88,9 +88,9 @@ impl Mesh {
         self.collapse(e, t, (1.0 - t) * a + t * b)
     }
 
-    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The attributes are interpolated at
-    /// the point on the edge that is nearest to the given point. If both ends of the edge have the same position, the
-    /// attributes are interpolated at the middle of the edge.
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), but to any given point. The attributes are
+    /// interpolated at the point on the edge that is nearest to the given point. If both ends of the edge have the same
+    /// position, the attributes are interpolated at the middle of the edge.
     ///
     /// # Errors
     ///
@@ -126,10 +126,10 @@ impl Mesh {
         }
         self.kill(e);
         self.kill(removed);
-        // If a face beside e was a triangle, it now has only two edges. Of these two edges, the edge that ends at the
-        // removed vertex is removed. Around the face of the first half-edge of e, the edge at vertex b comes after e,
-        // and the edge at vertex a comes before e. Around the face of the second half-edge, the edge at vertex a comes
-        // after e, and the edge at vertex b comes before e.
+        // If a face beside e was a triangle, it now has only two edges. Of these two edges, the one that ends at the
+        // removed vertex is removed too. Around the face of the first half-edge of e, the edge at vertex b comes after
+        // e, and the edge at vertex a comes before e. Around the face of the second half-edge, the edge at vertex a
+        // comes after e, and the edge at vertex b comes before e.
         for (i, h) in sides.into_iter().enumerate().filter(|&(i, _)| vanishes[i]) {
             let after = self.next(h);
             if (removed == b) == (i == 0) {

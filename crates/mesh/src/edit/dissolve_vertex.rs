@@ -165,7 +165,7 @@ impl Mesh {
     }
 
     /// Returns the spoke (one of several outgoing half-edges of a vertex) whose face has the most corners. Walks around
-    /// the faces of all spokes at the same time, and stops when all walks, or all walks except one, are complete.
+    /// the faces of all spokes at the same time, and stops as soon as at most one walk is incomplete.
     fn spoke_of_largest_face(&self, spokes: &[HalfEdgeId]) -> HalfEdgeId {
         let with_face = spokes.iter().filter(|&&h| self.face(h).is_some());
         let mut walks: Vec<(HalfEdgeId, HalfEdgeId)> = with_face.map(|&h| (h, h)).collect();

@@ -218,7 +218,7 @@ impl Mesh {
         require(n < u32::MAX as usize, EditError::Full)
     }
 
-    /// Links half-edges to a loop around `f`, in order.
+    /// Links the given half-edges, in order, to a loop around the face `f`.
     fn link_around(&mut self, f: FaceId, around: &[HalfEdgeId]) {
         for (&h, &next) in around.iter().zip(around.iter().cycle().skip(1)) {
             self.set_next(h, next);

@@ -48,7 +48,7 @@ impl Mesh {
         self.poke_face_at(f, self.face_center(f))
     }
 
-    /// Pokes a face like [`poke_face`](Self::poke_face), with the vertex at `position`, in scene units. As in
+    /// Pokes a face like [`poke_face`](Self::poke_face), but puts the new vertex at `position`, in scene units. As in
     /// `poke_face`, the attributes at the new vertex are the means over the corners, and do not depend on `position`.
     ///
     /// # Errors

@@ -6,8 +6,8 @@ use super::check_finite;
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// Splits a vertex into an edge between two of its corners: a new vertex gets the edges from `x` clockwise
-    /// to the last edge before `y`.
+    /// Splits a vertex into two vertices that share an edge. The new vertex gets the edges from `x` clockwise to the
+    /// last edge before `y`.
     ///
     /// ```text
     ///      \  f  |x             \  f  |x
@@ -207,7 +207,8 @@ mod tests {
         assert!(n_undone > 100, "{n_undone}");
     }
 
-    /// Undoes a collapse: splits the merged vertex. `mesh` is `shape` after the collapse of its edge `e`.
+    /// Undoes a collapse: splits the merged vertex. `mesh` is the mesh that results when the edge `e` of `shape`
+    /// collapses.
     fn undo_collapse(mesh: &mut Mesh, shape: &Mesh, e: EdgeId) {
         // h runs from v to the removed vertex.
         let [h, twin] = e.half_edges();

@@ -107,9 +107,9 @@ impl Mesh {
         Ok(edges[0])
     }
 
-    /// Checks that the mesh would be valid after the edges of `pairs` and the vertices of `ends` were merged. Each
-    /// entry of `pairs` contains two half-edges whose edges would be merged. Each entry of `ends` contains two vertices
-    /// that would be merged.
+    /// Checks that merging the edges of `pairs` and the vertices of `ends` would leave a valid mesh. Each entry of
+    /// `pairs` contains two half-edges whose edges would be merged. Each entry of `ends` contains two vertices that
+    /// would be merged.
     fn check_stitch(&self, pairs: &[Pair], ends: [[VertexId; 2]; 2]) -> Result<(), EditError> {
         for [x, y] in pairs {
             if self.face(x.twin()) == self.face(y.twin()) {

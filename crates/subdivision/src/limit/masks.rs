@@ -101,8 +101,7 @@ impl Star {
     fn smooth_tangents(&self) -> [DVec3; 2] {
         let n = self.spokes.len() as f64;
         let theta = TAU / n;
-        // The weight of the opposite corner of a quad is `scale` times the sum of the weights of the two spokes of the
-        // quad.
+        // The weight of the opposite corner of a quad is `scale` times the sum of the weights of the quad's two spokes.
         let scale = if self.loop_weights.is_some() {
             0.0
         } else {

@@ -1,7 +1,7 @@
 //! The limit surface at the vertices of a mesh: the positions to which the vertices converge as the number of levels
 //! grows, and the tangent planes at these positions.
 //!
-//! If the sharpness at a vertex does not change with levels, the limit position is a weighted mean of the one-ring (the
+//! If the sharpness at a vertex is the same on all levels, the limit position is a weighted mean of the one-ring (the
 //! vertex and the vertices around it). The tangents are then weighted sums of the one-ring. The weights, called limit
 //! masks, are left eigenvectors of the matrix that maps a one-ring to the one-ring of the next level. Sources:
 //! Halstead, Kass and DeRose, "Efficient, Fair Interpolation using Catmull-Clark Surfaces", 1993; Hoppe et al.,

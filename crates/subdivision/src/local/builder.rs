@@ -125,7 +125,7 @@ impl<'a> ConnectivityBuilder<'a> {
         self.close(pieces.part(f, 3), 0);
     }
 
-    /// Cuts a face into a quad for each corner.
+    /// Cuts a face into quads, one for each corner.
     pub(super) fn cut_into_quads(&mut self, f: usize) {
         let pieces = self.pieces;
         let center = pieces.center(f);

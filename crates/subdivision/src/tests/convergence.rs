@@ -25,7 +25,7 @@ fn distances(mut mesh: Mesh, rules: Rules, levels: u32) -> Vec<f64> {
 fn meshes_converge_at_the_rate_of_their_valences() {
     // Around a vertex, each level scales the surface by the subdominant eigenvalue, a factor that depends on the
     // valence of the vertex. The distance from nearby points to their limits scales by the same factor. If all valences
-    // are regular, the distance is instead quadratic in the edge length, so that each level divides it by 4.
+    // are regular, the distance is quadratic in the edge length instead, so that each level divides the distance by 4.
     let loop_rate = |n: f64| 0.375 + 0.25 * libm::cos(TAU / n);
     let cases = [
         (LOOP, shapes::icosahedron(), 8, loop_rate(5.0)),

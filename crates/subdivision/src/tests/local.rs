@@ -213,7 +213,7 @@ fn the_cotangent_of_the_smallest_angle_is_at_most_three_times_the_old_one() {
 #[test]
 fn nothing_moves_outside_of_the_chosen_faces() {
     for (name, mesh, faces) in cases() {
-        // If a vertex has a face that is not chosen, Loop and midpoint subdivision give it the same position.
+        // At a vertex with a face that is not chosen, Loop and midpoint subdivision give the same position.
         let smooth = refined(&mesh, &faces, LOOP, 3);
         let linear = refined(&mesh, &faces, MIDPOINT, 3);
         assert_eq!(smooth.connectivity(), linear.connectivity(), "{name}");

@@ -37,7 +37,7 @@ enum State {
 pub(crate) struct Charts {
     /// The values. Each value belongs to one vertex.
     values: Vec<DVec2>,
-    /// The index of the value of each corner of each face.
+    /// For each corner of each face, the index of its value.
     corners: Vec<Vec<usize>>,
     /// Inner edges whose two sides have different values at one end or at both ends.
     seams: BTreeSet<Edge>,

@@ -159,8 +159,8 @@ fn size(points: &[DVec3]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// For each point of the first list, finds the point at the same position (up to a tolerance) in the second list, and
-/// returns its index. Fails if a point has no partner, or two points have the same partner.
+/// Returns, for each point of the first list, the index of the point in the second list at the same position (up to a
+/// tolerance). Fails if a point has no partner, or two points have the same partner.
 fn matches(points: &[DVec3], expected: &[DVec3]) -> Result<Vec<usize>, String> {
     if points.len() != expected.len() {
         return Err(format!(

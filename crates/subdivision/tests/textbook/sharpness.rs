@@ -134,7 +134,8 @@ impl Sharpness {
         self.edges[&edge(a, b)]
     }
 
-    /// The next level divides the edge between `v` and `w` into two halves. Returns the sharpness of the half at `v`.
+    /// The next level divides the edge between `v` and `w` into two halves. Returns the sharpness of the half of this
+    /// edge at `v`.
     pub(crate) fn of_half(&self, v: usize, w: usize) -> f64 {
         self.halves[&edge(v, w)][usize::from(v > w)]
     }

@@ -201,19 +201,19 @@ impl Mesh {
             .map(I::new)
     }
 
-    /// Whether `v` is a vertex of this mesh that was not deleted.
+    /// Whether the vertex `v` exists in this mesh and was not deleted.
     #[inline]
     pub fn has_vertex(&self, v: VertexId) -> bool {
         self.is_living(v)
     }
 
-    /// Whether `e` is an edge of this mesh that was not deleted.
+    /// Whether the edge `e` exists in this mesh and was not deleted.
     #[inline]
     pub fn has_edge(&self, e: EdgeId) -> bool {
         self.is_living(e)
     }
 
-    /// Whether `f` is a face of this mesh that was not deleted.
+    /// Whether the face `f` exists in this mesh and was not deleted.
     #[inline]
     pub fn has_face(&self, f: FaceId) -> bool {
         self.is_living(f)

@@ -52,9 +52,9 @@ const NEXT: usize = 1;
 enum State {
     /// The value does not change on any level.
     Corner,
-    /// The value does not change as long as an edge inside the piece, or the vertex, is sharp.
+    /// The value stays unchanged while an edge inside the piece, or the vertex, is sharp.
     SemiSharp,
-    /// The vertex has two pieces. The value does not change as long as an edge inside the other piece is sharp.
+    /// The vertex has two pieces. The value stays unchanged while an edge inside the other piece is sharp.
     Dependent,
     /// The value is smoothed along the border of the piece.
     Crease,

@@ -78,9 +78,9 @@ fn between(mesh: &Mesh, e: EdgeId) -> DVec3 {
     0.375 * (a + b) + 0.125 * (c + d)
 }
 
-/// Subdivides a list of triangles without half-edges: an edge is a pair of vertices. Returns the positions and the
-/// triangles. New vertices on edges come after the old vertices, sorted by the vertex pairs of their edges. The result
-/// is wrong if two edges connect the same two vertices.
+/// Subdivides a list of triangles, without the use of half-edges: an edge is a pair of vertices. Returns the positions
+/// and the triangles. New vertices on edges come after the old vertices, sorted by the vertex pairs of their edges. The
+/// result is wrong if two edges connect the same two vertices.
 pub(crate) fn over_polygons(
     positions: &[DVec3],
     triangles: &[[u32; 3]],

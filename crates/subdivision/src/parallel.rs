@@ -6,8 +6,8 @@ use mesh::Value;
 use progress::{Cancelled, Meter};
 use rayon::prelude::*;
 
-/// The number of elements in one block. Each task processes one block, which takes well below a millisecond, so
-/// that progress is smooth and cancellation is quick.
+/// The number of elements in one block. Each task processes one block in well below a millisecond, so that progress is
+/// smooth and cancellation is quick.
 pub(crate) const BLOCK: usize = 4096;
 
 /// Processes one block of an array. The first argument is the index of the first element of the block.

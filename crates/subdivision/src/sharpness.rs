@@ -39,9 +39,9 @@ pub(crate) struct Sharpness<'a> {
 /// How a vertex moves. `K` is the type that identifies edges around the vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum VertexRule<K> {
-    /// The vertex moves by the mask of the scheme.
+    /// The mask of the scheme gives the new position of the vertex.
     Smooth,
-    /// The vertex moves by the crease mask. The crease consists of these two edges.
+    /// The crease mask gives the new position of the vertex. The crease consists of these two edges.
     Crease([K; 2]),
     /// The vertex stays in place.
     Corner,

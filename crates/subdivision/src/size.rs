@@ -96,9 +96,9 @@ impl Size {
         }
     }
 
-    /// Estimates how much the given levels, starting from this size, add to the progress [`Meter`](progress::Meter).
-    /// For most schemes, a level adds one for each new vertex, one for each old edge, and one for each new face. For
-    /// Sqrt3 and Doo-Sabin, a level adds one for each new vertex and one for each new edge.
+    /// Estimates how much the given levels of a mesh of this size add to the progress [`Meter`](progress::Meter). For
+    /// most schemes, a level adds one for each new vertex, one for each old edge, and one for each new face. For Sqrt3
+    /// and Doo-Sabin, a level adds one for each new vertex and one for each new edge.
     pub(crate) fn work(self, scheme: Scheme, levels: Range<u32>) -> u64 {
         let (mut size, mut sum) = (self, 0);
         for level in levels {
@@ -191,13 +191,13 @@ impl<N: Count> Size<N> {
             .plus(self.faces.least().times(4 + face))
     }
 
-    /// Checks the size after the given levels, starting from this size. There must be enough ids for all elements, and
-    /// the mesh must take at most `budget` bytes.
+    /// Checks the size that a mesh of this size has after the given levels. There must be enough ids for all elements,
+    /// and the mesh must take at most `budget` bytes.
     ///
     /// # Errors
     ///
-    /// Returns [`TooLarge`] if the mesh after the last level does not fit. The error contains the highest of the given
-    /// levels that fits, if there is one.
+    /// Returns [`TooLarge`] if the mesh after the last level would be too large. The error contains the highest of the
+    /// given levels that is not too large, if there is one.
     pub fn check(self, scheme: Scheme, levels: Range<u32>, budget: u64) -> Result<(), TooLarge> {
         let mut size = self;
         let mut fits = None;

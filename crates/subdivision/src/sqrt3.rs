@@ -64,7 +64,7 @@ pub(crate) enum Source {
     Near(HalfEdgeId),
 }
 
-/// The change of an old edge on this level.
+/// How this level changes an old edge.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Side {
     /// The edge is flipped.
@@ -261,7 +261,7 @@ impl<'a> Sqrt3<'a> {
         ]
     }
 
-    /// Returns the half-edge of the `r`-th cut edge that has a face.
+    /// Of the two half-edges of the `r`-th cut edge, returns the one that has a face.
     fn of_rank(&self, r: usize) -> HalfEdgeId {
         let cut = self.cut.as_ref().expect("only odd levels have ranks");
         HalfEdgeId::new(cut.nth(r)).twin()
@@ -325,8 +325,8 @@ impl Topology for Sqrt3<'_> {
     }
 
     /// Returns the place in the old mesh from which a corner takes its value. A triangle next to a flipped edge covers
-    /// parts of two old faces. At its old vertex, triangle 3f + k takes the value from the corner of face f at this
-    /// vertex. At the center of an old face, a new triangle takes the value from this face.
+    /// parts of two old faces. The corner of triangle 3f + k at an old vertex takes the value of the corner of face f
+    /// at this vertex. At the center of an old face, a new triangle takes the value from this face.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         let mesh = self.mesh;
         let Some(face) = finer.face[i].some() else {

@@ -39,12 +39,12 @@ pub fn morph_name(target: usize) -> String {
     format!("{MORPH}{target}")
 }
 
-/// Returns the name of the attribute with the normals that the mesh has when a morph target has the weight 1.
+/// Returns the name of the attribute that stores the normals of the mesh when a morph target has the weight 1.
 pub fn morph_normal_name(target: usize) -> String {
     format!("{MORPH_NORMAL}{target}")
 }
 
-/// Returns the name of the attribute with the tangents that the mesh has when a morph target has the weight 1.
+/// Returns the name of the attribute that stores the tangents of the mesh when a morph target has the weight 1.
 pub fn morph_tangent_name(target: usize) -> String {
     format!("{MORPH_TANGENT}{target}")
 }

@@ -24,9 +24,9 @@
 //!   part cannot get a consistent orientation, none of its polygons is reversed. The first corner of a reversed polygon
 //!   stays the first.
 //! - An edge between vertices a and b is not manifold if more than two polygons share it. It is also not manifold if
-//!   two polygons share it, and their sides run along it in the same direction even after polygons have been reversed.
-//!   On a non-manifold edge, the k-th side from a to b is paired with the k-th side from b to a. The sides are counted
-//!   in the order of the corners. Unpaired sides become boundary edges.
+//!   exactly two polygons share it, and their sides still run along it in the same direction after polygons have been
+//!   reversed. On a non-manifold edge, the k-th side from a to b is paired with the k-th side from b to a. The sides
+//!   are counted in the order of the corners. Unpaired sides become boundary edges.
 //! - If the faces around a vertex form several fans, the fan that contains the first corner at the vertex keeps the
 //!   vertex. Each other fan gets a copy of the vertex. The copies come after all other vertices.
 //! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.
@@ -107,9 +107,9 @@ pub enum NonManifold {
     /// the mesh is a manifold. The [`BuildReport`] lists all of these repairs.
     #[default]
     Split,
-    /// Like [`Split`](Self::Split), but every polygon keeps its orientation. If two neighbors run along their common
-    /// edge in the same direction, the edge is split. Each neighbor gets its own copy of the edge, and the copies are
-    /// not connected.
+    /// Like [`Split`](Self::Split), but every polygon keeps its orientation. If two polygons run along their common
+    /// edge in the same direction, the edge is split. Each of the two polygons gets its own copy of the edge, and the
+    /// copies are not connected.
     SplitAsGiven,
     /// Reverse polygons where that makes the orientation consistent, and return an error if the result
     /// is not a manifold.
@@ -314,8 +314,8 @@ fn check_manifold(paired: &PairedSides) -> Result<(), BuildError> {
     pinched.map_or(Ok(()), |v| Err(BuildError::NonManifoldVertex(v)))
 }
 
-/// Builds a mesh with some polygons reversed. In the result, the map from corners to half-edges uses the corners in the
-/// order before the reversal.
+/// Builds a mesh with some polygons reversed. In the result, the map from corners to half-edges numbers the corners as
+/// before the reversal.
 fn build_reoriented(
     positions: Vec<DVec3>,
     offsets: &[u32],

@@ -20,9 +20,9 @@ impl Mesh {
     /// [`vertex_half_edges`](Self::vertex_half_edges). The numbers of vertices, edges and faces grow by n - 1, n and 1.
     /// A face gains one corner for each of its corners at v.
     ///
-    /// At a cut, vertex attributes are interpolated between v and the other end of the edge. Corner attributes are
-    /// interpolated within their face, separately on each side of a seam. Attributes that are not interpolated are
-    /// copied from v. The new face has the values of the face to the left of the first edge in
+    /// At a cut, vertex attributes are interpolated between v and the other end of the edge. The values of a corner are
+    /// interpolated within its face, separately on each side of a seam. Attributes that are not interpolated are copied
+    /// from v. The new face has the values of the face to the left of the first edge in
     /// [`vertex_half_edges`](Self::vertex_half_edges). Each corner of the new face copies the values of another corner
     /// at the same cut: the corner of the face to the left of the cut edge, as seen from v. The attribute values of new
     /// edges are zero.

@@ -24,8 +24,8 @@ impl Mesh {
     /// instead. Each new face has one edge of the longer loop, and gets the values of the old face on the other side of
     /// this edge. Each new corner lies on one of the two loops. If the new face has an edge of this loop, the corner
     /// copies the corner at the same vertex on the other side of this edge. A triangle has no edge of the shorter loop.
-    /// For the corner of a triangle at the shorter loop, the edge of the last quad before the triangle is used instead.
-    /// The attribute values of new edges are zero.
+    /// A corner of a triangle at the shorter loop uses the edge of the last quad before the triangle instead. The
+    /// attribute values of new edges are zero.
     ///
     /// Returns the new faces.
     ///

@@ -23,13 +23,14 @@ impl Mesh {
     /// boundary, by 1, 2 and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
     ///
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not interpolate:
-    /// these keep their values at v. At v, the corners of the faces beside `e` get interpolated values. Each corner is
-    /// interpolated within its face, so both sides of a seam stay separate. A face that is not beside `e` can also have
-    /// a corner at an end of `e`. For each attribute, the old value of this corner is compared with the old value that
-    /// each face beside `e` has at the same end. If the values are equal for one of these faces, the corner gets the
-    /// new value of this face at v. Otherwise, the corner keeps its old value. When two edges become one, the remaining
-    /// edge gets the larger of the two values of each floating-point attribute, so that creases are preserved. A tag is
-    /// set if either edge had this tag. Attributes of other types keep the value of the remaining edge.
+    /// these keep their values at v. At v, the corners of the faces beside `e` get interpolated values. The values of
+    /// each corner are interpolated within its face, so both sides of a seam stay separate. A face that is not beside
+    /// `e` can also have a corner at an end of `e`. For each attribute, the old value of this corner is compared with
+    /// the old value that each face beside `e` has at the same end. If the values are equal for one of these faces, the
+    /// corner gets the new value of this face at v. Otherwise, the corner keeps its old value. When two edges become
+    /// one, the remaining edge gets the larger of the two values of each floating-point attribute, so that creases are
+    /// preserved. A tag is set if either edge had this tag. Attributes of other types keep the value of the remaining
+    /// edge.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The test is
     /// the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge contraction", 1999),

@@ -34,11 +34,11 @@ impl Mesh {
     ///    +---+---+---+          +---+   +---+
     /// ```
     ///
-    /// Only the mesh after the deletion of all listed faces is checked. Therefore, a list of faces can be accepted even
-    /// if the deletion of one of its faces alone would be refused. Edges that have no other face are deleted too.
-    /// Vertices are not deleted; a vertex that loses all of its edges becomes isolated. The ids and attribute values of
-    /// the remaining elements do not change. An empty list changes nothing. This function takes time proportional to
-    /// the number of listed faces plus the number of edges at their corners.
+    /// The mesh is checked only once, as it would be after the deletion of all listed faces. Therefore, a list of faces
+    /// can be accepted even if the deletion of one of its faces alone would be refused. Edges that have no other face
+    /// are deleted too. Vertices are not deleted; a vertex that loses all of its edges becomes isolated. The ids and
+    /// attribute values of the remaining elements do not change. An empty list changes nothing. This function takes
+    /// time proportional to the number of listed faces plus the number of edges at their corners.
     ///
     /// # Errors
     ///

@@ -19,8 +19,8 @@ impl Mesh {
     /// Inside a triangle mesh, the numbers of vertices, edges and faces grow by 1, 3 and 2; on its boundary by 1, 2
     /// and 1.
     ///
-    /// Vertex attributes at m are interpolated between a and b. Corner attributes at m are interpolated within their
-    /// face, separately on each side of a seam. m-b has the edge values of `e`. Each new face has the values of the
+    /// Vertex attributes at m are interpolated between a and b. The values of a corner at m are interpolated within its
+    /// face, separately on each side of a seam. The edge m-b has the values of `e`. Each new face has the values of the
     /// face from which it was cut, f or g.
     ///
     /// If both triangles have the same opposite vertex (c is d), two edges join m and c.

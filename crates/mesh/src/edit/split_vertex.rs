@@ -117,8 +117,8 @@ mod tests {
     use crate::{COLOR, FaceId, UV, VertexId, shapes};
     use glam::{DVec2, DVec4};
 
-    /// Returns the faces in order of ids. Each face has the list of its vertices, which starts with the vertex with the
-    /// lowest id.
+    /// Returns the faces in order of ids. Each face is given as the list of its vertices, starting with the vertex with
+    /// the lowest id.
     fn faces(mesh: &Mesh) -> Vec<(FaceId, Vec<VertexId>)> {
         let corners = |f| {
             let mut corners: Vec<VertexId> = mesh.face_vertices(f).collect();
@@ -236,8 +236,8 @@ mod tests {
         }
         let mut x = first;
         let mut y = mesh.next(last.twin());
-        // The collapse merged two edges of a triangle into one edge. The triangle can be restored on either side of
-        // this edge, unless this side is a hole.
+        // The collapse merged two edges of a triangle into one edge. The triangle can be restored on each side of this
+        // edge that is not a hole.
         let keep_left = triangles[0] && (mesh.face(x).is_none() || x == y);
         if keep_left {
             x = mesh.next(x.twin());

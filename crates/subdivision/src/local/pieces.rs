@@ -68,7 +68,7 @@ impl SmoothedElements {
 pub(super) struct PartTable<I> {
     /// The id of the first part of each element, followed by the total number of parts.
     first: Vec<u32>,
-    /// The element of each part.
+    /// For each part, the element to which it belongs.
     of: Vec<I>,
 }
 

@@ -126,8 +126,8 @@ fn splitting_all_edges_at_a_vertex_halves_its_displacement() {
 
 #[test]
 fn a_tetrahedron_shrinks_by_the_factor_of_the_mask() {
-    // The neighbors of a vertex p sum to -p, so p becomes (7/16 - 3/16) p. The vertex on the edge between a and
-    // b becomes 3/8 (a + b) + 1/8 (c + d) = 1/4 (a + b).
+    // The positions of the neighbors of a vertex p sum to -p, so p becomes (7/16 - 3/16) p. The vertex on the edge
+    // between a and b becomes 3/8 (a + b) + 1/8 (c + d) = 1/4 (a + b).
     let old = shapes::tetrahedron();
     let new = once(&old);
     for v in old.vertices() {

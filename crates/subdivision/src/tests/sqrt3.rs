@@ -166,7 +166,7 @@ fn the_boundary_is_a_cubic_b_spline_that_two_levels_cut_in_three() {
 
 #[test]
 fn an_octahedron_shrinks_by_the_factor_of_the_mask() {
-    // The four neighbors of a vertex p sum to 0, and the weight of p is 1 - 4/9.
+    // The positions of the four neighbors of a vertex p sum to 0, and the weight of p is 1 - 4/9.
     let old = shapes::octahedron();
     let new = once(&old);
     for v in old.vertices() {

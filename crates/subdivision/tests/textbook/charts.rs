@@ -24,8 +24,8 @@ enum State {
     Corner,
     /// The value is smoothed along the border of the faces that share it.
     Crease,
-    /// As long as the vertex, or an edge between the faces that share the value, is semi-sharp, the value does not
-    /// change. On later levels, it is smoothed along the border of these faces.
+    /// The value stays unchanged while the vertex, or an edge between the faces that share the value, is semi-sharp. On
+    /// later levels, it is smoothed along the border of these faces.
     Sharp,
     /// The vertex has two values, this one and another one. This value stays unchanged while an edge between two faces
     /// that share the other value is semi-sharp.

@@ -133,8 +133,8 @@ fn butterfly_of_a_tetrahedron() {
 
 #[test]
 fn sqrt3_of_a_tetrahedron() {
-    // The total weight of the neighbors is a = (4 + 1) / 9. So the vertex has the weight 4/9 and each neighbor
-    // 5/27. The neighbors sum to the negative of the vertex.
+    // The total weight of the neighbors is a = (4 + 1) / 9. So the vertex has the weight 4/9 and each neighbor 5/27.
+    // The positions of the neighbors sum to minus the position of the vertex.
     let fine = one_level(&tetrahedron(), Scheme::Sqrt3);
     assert_eq!((fine.positions.len(), fine.faces.len()), (8, 12));
     assert_has(&fine, [7.0 / 27.0, 7.0 / 27.0, 7.0 / 27.0]);
@@ -353,7 +353,7 @@ fn boundaries_are_splines_or_fixed() {
     assert_has(&doo_sabin, [1.0, 0.0, 0.0]);
     assert_has(&doo_sabin, [1.0, 1.0, 0.0]);
     assert_eq!((doo_sabin.positions.len(), doo_sabin.faces.len()), (12, 9));
-    // Each corner of the triangle moves by 4/27 of the sum of its two sides.
+    // Each corner of the triangle moves by 4/27 of the sum of its two sides, as vectors from this corner.
     let triangle = Polygons::new(square.positions[..3].to_vec(), vec![vec![0, 1, 2]]);
     let fine = textbook(&triangle, Rules::of(Scheme::Sqrt3), 2);
     assert_has(&fine, [32.0 / 27.0, 16.0 / 27.0, 0.0]);

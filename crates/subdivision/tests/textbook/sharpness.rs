@@ -22,7 +22,7 @@ pub(crate) enum Rule {
     Corner,
 }
 
-/// Whether a sharpness is above 0 and decreases with levels.
+/// Whether a sharpness is above 0 and decreases from level to level.
 pub(crate) fn is_semi_sharp(s: f64) -> bool {
     s > 0.0 && s < INFINITE
 }

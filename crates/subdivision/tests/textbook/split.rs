@@ -30,7 +30,7 @@ fn has_centers(scheme: Scheme) -> bool {
     )
 }
 
-/// Returns the new faces in an old face with n corners.
+/// Returns the new faces into which an old face with n corners is cut.
 pub(crate) fn pieces(scheme: Scheme, n: usize) -> Vec<Vec<Place>> {
     use Place::{Center, Corner, Side};
     if has_centers(scheme) {

@@ -105,7 +105,7 @@ fn the_end_with_the_lower_id_remains() {
             [&[0, 1, 2, 3], &[1, 0, 4]]
         };
         let mut mesh = topology(5, &polygons);
-        // The edge is inside and both of its ends are on the boundary.
+        // The edge is inside the mesh, but both of its ends are on the boundary.
         let e = edge(&mesh, 0, 1);
         assert_eq!(refused(&mesh, e), EditError::JoinsBoundaries(e));
         let e = edge(&mesh, 1, 4);

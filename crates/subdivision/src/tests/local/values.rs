@@ -15,7 +15,8 @@ fn attributes_follow_their_elements() {
         for (color, p) in new.get(COLOR).unwrap().iter().zip(new.positions()) {
             assert_eq!(color.truncate(), *p, "{name}");
         }
-        // The parts of each old face have the same total area as the old face, and come in the order of the old faces.
+        // Together, the parts of an old face have the same area as this face. The parts come in the order of the old
+        // faces.
         let linear = refined(&mesh, &faces, MIDPOINT, 2);
         let material = linear.get(MATERIAL).unwrap();
         assert!(material.is_sorted(), "{name}");

@@ -112,8 +112,7 @@ fn naive(mesh: &Mesh, before: &Topology, e: EdgeId) -> Option<Vec<(usize, Vec<us
     (after == expected).then_some(remaining)
 }
 
-/// Whether a list of polygons can represent the mesh: the mesh has no parallel edges, and no face contains a
-/// vertex twice.
+/// Whether a list of polygons can represent the mesh: it has no parallel edges, and no face contains a vertex twice.
 fn is_simple(mesh: &Mesh) -> bool {
     let mut ends: Vec<_> = mesh
         .edges()

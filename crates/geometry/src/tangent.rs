@@ -21,9 +21,9 @@ pub struct Tangents {
     /// For each half-edge with a face, the unit tangent of its corner and the sign of the bitangent, 1 or -1. For
     /// half-edges without a face, the value is zero.
     pub values: Vec<DVec4>,
-    /// The number of corners at which the texture coordinates define no direction, for example because they are equal
-    /// at all corners of the triangle. The tangents of these corners are arbitrary unit vectors perpendicular to the
-    /// normals.
+    /// The number of corners at which the texture coordinates define no direction, for example because all corners of
+    /// the triangle have the same texture coordinates. The tangents of these corners are arbitrary unit vectors
+    /// perpendicular to the normals.
     pub n_arbitrary: usize,
 }
 

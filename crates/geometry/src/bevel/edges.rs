@@ -1,4 +1,4 @@
-//! Bevels a set of edges at once, with a constant width.
+//! Bevels all edges of a set together, with a constant width.
 //!
 //! ```text
 //!      |             |                |   | n |   |        An edge becomes a new face. The other edges at its ends
@@ -254,8 +254,8 @@ impl<'m> Bevel<'m> {
         let sine = 2.0 * half_sine * half_cosine;
         let weight = |length: f64| {
             let weight = self.width / (sine * length);
-            // Each of the two edges at the corner has a weight. If both edges are almost on one line, or if an edge is
-            // too short, the absolute value of its weight can be 1 or more. Such a weight is replaced by 0. If the
+            // Each of the two edges at the corner has a weight. If both edges are almost on one line, or if one of them
+            // is too short, the absolute value of a weight can be 1 or more. Such a weight is replaced by 0. If the
             // weights of both edges are 0, the point gets the values of the old vertex.
             if weight.abs() < 1.0 { weight } else { 0.0 }
         };

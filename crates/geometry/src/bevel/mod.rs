@@ -1,5 +1,5 @@
-//! Bevels a set of edges at once. If an earlier bevel has shortened an edge at one end, the module also computes where
-//! the next bevel cuts the edge at the other end.
+//! Bevels all edges of a set together. If an earlier bevel has shortened an edge at one end, the module also computes
+//! where the next bevel cuts the edge at the other end.
 
 mod edges;
 mod values;

@@ -82,8 +82,8 @@ fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
             }
         })
         .collect();
-    // The corners divide the line into intervals. If several corners are at the same place on the line, a corner at
-    // which an interval inside the polygon ends comes first.
+    // The corners divide the line into intervals. If several corners are at the same place on the line, a corner that
+    // ends an interval inside the polygon comes before a corner that begins one.
     let rank = |i: usize| match sees_inside[i] {
         [true, false] => 0,
         [false, true] => 2,

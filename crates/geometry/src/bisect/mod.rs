@@ -12,11 +12,11 @@ use crate::bounds;
 use chords::Corner;
 pub use symmetrize::{SymmetrizeError, Symmetrized, symmetrize};
 
-/// A vertex counts as on the plane if its distance from the plane is at most this fraction of the largest extent of the
-/// mesh.
+/// A vertex counts as lying on the plane if its distance from the plane is at most this fraction of the largest extent
+/// of the mesh.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
-/// A vertex also counts as on the plane if its distance from the plane is at most this number times c. Here c is the
-/// largest absolute coordinate of all vertices and of the given point of the plane. Coordinates far from the origin
+/// A vertex also counts as lying on the plane if its distance from the plane is at most this number times c. Here c is
+/// the largest absolute coordinate of all vertices and of the given point of the plane. Coordinates far from the origin
 /// have rounding errors of this size.
 const ROUNDING_TOLERANCE: f64 = 1e-14;
 
@@ -43,7 +43,7 @@ pub struct Bisection {
 ///
 /// Every edge that crosses the plane gets a vertex at the crossing point. Every face that crosses the plane is cut
 /// along the plane; a concave face can be cut several times. The parts of a face share the new edges, so the mesh
-/// remains connected. A vertex counts as on the plane if its distance from the plane is at most the larger of two
+/// remains connected. A vertex counts as lying on the plane if its distance from the plane is at most the larger of two
 /// tolerances. One tolerance is 1e-9 times the largest extent of the mesh. The other tolerance is 1e-14 times the
 /// largest absolute coordinate of the mesh and `point`. A vertex on the plane is not moved, and an edge with an end on
 /// the plane is not split. The side of the plane on which a vertex lies is determined once, and is the same for all
@@ -61,13 +61,13 @@ pub struct Bisection {
 /// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times. The
 /// intervals of the line between the crossings are alternately inside and outside of the face. At each corner on the
 /// line, the adjacent sides of the face show whether the intervals next to the corner are inside. If a face is not flat
-/// or intersects itself, the sides at the two ends of an interval can contradict each other. In this case, each part of
-/// the face in front of the plane is cut off separately. If two faces share both edges that the plane crosses, each
-/// face gets a separate edge between the same two crossing points.
+/// or intersects itself, the two ends of an interval can disagree: only one of them shows that the interval is inside.
+/// In this case, each part of the face in front of the plane is cut off separately. If two faces share both edges that
+/// the plane crosses, each face gets a separate edge between the same two crossing points.
 ///
-/// A face can lie in the plane. If the normal of this face points to the back of the plane, the face counts as a face
-/// in front of the plane, because the solid that it bounds is in front of the plane. Otherwise, the face counts as a
-/// face behind the plane.
+/// A face can lie in the plane. If the normal of this face points to the back of the plane, the solid that the face
+/// bounds is in front of the plane. The face then counts as a face in front of the plane. Otherwise, the face counts as
+/// a face behind the plane.
 ///
 /// # Errors
 ///
@@ -99,8 +99,8 @@ pub fn bisect(mesh: &mut Mesh, point: DVec3, normal: DVec3) -> Result<Bisection,
     })
 }
 
-/// Returns the height of each vertex: the signed distance from the plane. The height is 0 for vertices that count as on
-/// the plane, and for dead (removed) vertices.
+/// Returns the height of each vertex: the signed distance from the plane. The height is 0 for vertices that count as
+/// lying on the plane, and for dead (removed) vertices.
 fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditError> {
     if let Some(&bad) = point.to_array().iter().find(|x| !x.is_finite()) {
         return Err(EditError::BadNumber(bad));

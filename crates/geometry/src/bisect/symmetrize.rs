@@ -40,11 +40,11 @@ pub enum SymmetrizeError {
 /// ```
 ///
 /// The mesh is cut as in [`bisect`]. Faces behind the plane and faces in the plane are removed. The remaining vertices
-/// that count as on the plane are moved onto the plane, by at most the tolerance of `bisect`. The two halves share the
-/// boundary vertices on the plane. In the result, the elements of the original half come first and keep their order.
-/// The elements of the mirror image follow in the same order, with copies of the values of the original half. The
-/// deltas of morph targets are mirrored, and stored normals are removed from both halves. Like `bisect`, this function
-/// can add a second edge between two vertices on the plane that already share an edge.
+/// that count as lying on the plane are moved onto the plane, by at most the tolerance of `bisect`. The two halves
+/// share the boundary vertices on the plane. In the result, the elements of the original half come first and keep their
+/// order. The elements of the mirror image follow in the same order, with copies of the values of the original half.
+/// The deltas of morph targets are mirrored, and stored normals are removed from both halves. Like `bisect`, this
+/// function can add a second edge between two vertices on the plane that already share an edge.
 ///
 /// # Errors
 ///

@@ -33,8 +33,8 @@ impl Frame {
         self.origin + p.x * x + p.y * y + p.z * z
     }
 
-    /// Returns the fraction of the full amount of the deformation that applies at the given height. The fraction is
-    /// from 0 to 1. If `from` equals `to`, the fraction jumps from 0 to 1 at this height.
+    /// Returns how much of the deformation applies at the given height: a number from 0 (nothing) to 1 (all of it). If
+    /// `from` equals `to`, the number jumps from 0 to 1 at this height.
     fn part(&self, height: f64) -> f64 {
         if height <= self.from {
             0.0

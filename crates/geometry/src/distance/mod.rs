@@ -179,8 +179,8 @@ struct Block {
     /// Pieces (triangles) whose upper bounds exceed a limit: the largest distance measured at a vertex, plus the
     /// tolerance. Only these pieces can be cut later.
     pieces: Vec<Piece>,
-    /// An upper bound of the distances from some points of the block to the other surface: from all points that are in
-    /// none of the `pieces`.
+    /// An upper bound of the distance to the other surface, for all points of the block that are in none of the
+    /// `pieces`.
     ceiling: f64,
     farthest: Option<Farthest>,
     /// The sum of the areas of the triangles.

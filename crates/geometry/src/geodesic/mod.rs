@@ -136,17 +136,18 @@ fn heat(
     }
 }
 
-/// Returns the right side of the equation for the distances. The entry of a vertex is a sum over the triangles around
-/// the vertex. Each triangle adds its area times the dot product of two vectors: the gradient of the hat function of
-/// the vertex, and the direction in which the heat decreases.
+/// Returns the right-hand side of the equations for the distances. The entry of a vertex is a sum over the triangles
+/// around the vertex. Each triangle adds its area times the dot product of two vectors: the gradient of the hat
+/// function of the vertex, and the direction in which the heat decreases.
 fn flow(surface: &Intrinsic, heat: &[f64], n: usize) -> Vec<f64> {
     let of_triangle = |(corners, &[a, b, c]): (&[u32; 3], &[f64; 3])| {
         // The triangle is laid out in a plane. Its corners are at (0, 0), (a, 0) and (x, y), where a is the length of
         // the first side of the triangle.
         let x = (a * a + c * c - b * b) / (2.0 * a);
         let y = 2.0 * area([a, b, c]) / a;
-        // A hat function is 1 at one corner and 0 at the two others. To get the gradient of a hat function, the side
-        // opposite the corner with the value 1 is turned by 90° and divided by twice the area of the triangle.
+        // A hat function is 1 at one corner and 0 at the two others. To get the gradient of a hat function, take the
+        // side opposite the corner with the value 1. Turn this side by 90°, and divide it by twice the area of the
+        // triangle.
         let hats = [[-y, x - a], [y, -x], [0.0, a]];
         let values = corners.map(|v| heat[v as usize]);
         let largest = values.iter().fold(0.0, |max: f64, u| max.max(u.abs()));

@@ -27,7 +27,7 @@ pub use cluster::clusters;
 pub struct Merged {
     /// The number of vertices that disappeared, because they were merged into another vertex.
     pub vertices: usize,
-    /// The number of faces that lost corners but kept at least three.
+    /// The number of faces that lost corners, but kept at least three corners.
     pub smaller_faces: usize,
     /// The changes that made the result a manifold. The field `dropped_faces` of the report lists the faces that
     /// disappeared.
@@ -149,7 +149,7 @@ struct Polygons {
     corners: Vec<u32>,
     /// The old half-edge of each corner.
     half_edges: Vec<HalfEdgeId>,
-    /// The number of faces that lost corners but kept at least three.
+    /// The number of faces that lost corners, but kept at least three corners.
     reduced: usize,
 }
 

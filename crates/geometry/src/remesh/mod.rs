@@ -1,10 +1,10 @@
-//! Remeshing: nearly equilateral triangles of a given size for the same surface.
+//! Remeshing: replaces the triangles of a surface by nearly equilateral triangles of a given size.
 //!
 //! Remeshing repeats a pass of four steps: split long edges, collapse short edges, flip edges so that most vertices
 //! have six edges, and move vertices along the surface. Source: Botsch, Kobbelt, "A Remeshing Approach to
 //! Multiresolution Modeling", 2004. Each movement of a vertex ends on the original surface, at a point of the line or
 //! chart (a region between lines) to which the vertex belongs. A split or a collapse can place a vertex off the
-//! original surface. The first movement of this vertex ends on the surface again. If all movements of this vertex are
+//! original surface. The first movement of this vertex puts it back on the surface. If all movements of this vertex are
 //! refused, the vertex stays off the surface.
 //!
 //! ```text

@@ -303,8 +303,8 @@ impl<'a> Original<'a> {
 fn kinds_to_places(mesh: &Mesh, kinds: &[Kind]) -> Vec<Place> {
     let place = |v: VertexId| match kinds[v.index()] {
         Kind::Inside if mesh.vertex_half_edge(v).is_some() => Place::Inside(0),
-        // Until the chains (lines between two corners) are built, all vertices on lines have the place `Corner`. For
-        // the vertices between the ends of a chain, this place is later replaced by `Line`.
+        // Until the chains (lines between two corners) are built, all vertices on lines have the place `Corner`. Later,
+        // the vertices between the ends of a chain get the place `Line` instead.
         _ => Place::Corner(v),
     };
     mesh.vertices().map(place).collect()

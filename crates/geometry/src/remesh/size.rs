@@ -30,7 +30,7 @@ impl Sizes {
     /// Computes the target lengths from the requested `length`. `error` is the largest allowed distance between the
     /// original surface and the result; `None` if there is no limit. Where edges of the target length would deviate
     /// from the surface by more than this distance, the target length is reduced. The reduced length is not below the
-    /// smallest requested length `min`. For a uniform length, which has no `min`, the reduced length is not below
+    /// smallest requested length `min`. A uniform length has no `min`; in this case, the reduced length is not below
     /// `error`.
     pub(super) fn new(original: &Original, length: Length, error: Option<f64>) -> Self {
         let (error, min, max) = match (length, error) {

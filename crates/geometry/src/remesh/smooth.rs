@@ -39,11 +39,12 @@ fn fill<T: Send>(
 }
 
 impl Work<'_> {
-    /// Moves all vertices once. A vertex inside a chart first moves within its tangent plane, to the projection of the
-    /// weighted mean of the centers of the triangles around it. The vertex then moves from the tangent plane to the
-    /// nearest point of the original surface. A vertex on a line moves halfway towards the middle between its neighbors
-    /// on the line. Movements that turn a triangle too far or move the surface too far are undone. Returns the largest
-    /// movement of a vertex, as a fraction of its target length.
+    /// Moves all vertices once. A vertex inside a chart first moves within its tangent plane. To find its goal there,
+    /// the weighted mean of the centers of the triangles around it is projected onto this plane. The vertex then moves
+    /// from the tangent plane to the nearest point of the original surface. A vertex on a line moves halfway towards
+    /// the middle between its neighbors on the line. Movements that turn a triangle too far or move the surface too far
+    /// are undone. For each vertex, the length of the movement is divided by the target length of the vertex; returns
+    /// the largest of these numbers.
     pub(super) fn smooth(&mut self, progress: &dyn Progress) -> Result<f64, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let n = self.places.len();

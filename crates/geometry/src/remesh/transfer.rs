@@ -233,9 +233,9 @@ impl Work<'_> {
     }
 
     /// Returns the edge of the original mesh from which a new edge gets its values. For a new edge on a line, the
-    /// result is an edge of the line. For any other new edge, the result is an edge of the original triangle at the
-    /// midpoint of the new edge. Of the edges of this triangle that are not on a line, the result is the edge nearest
-    /// to the midpoint. Returns `None` if all three edges of the triangle are on lines.
+    /// result is an edge of the line. For any other new edge, the original triangle nearest to the midpoint of the new
+    /// edge is found, and the result is an edge of this triangle. If several of its edges are not on a line, the result
+    /// is the one nearest to the midpoint. Returns `None` if all three edges of the triangle are on lines.
     fn edge(&self, e: EdgeId) -> Option<EdgeId> {
         if let Some(track) = self.tracks[e.index()] {
             let h = along(e, track);

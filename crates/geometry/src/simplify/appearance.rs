@@ -119,13 +119,13 @@ impl Appearance {
     }
 
     /// Returns the integral of the squared error of all attributes except normals, as a function of the point at which
-    /// the vertex is placed. At each point, the vertex has the values with the least error.
+    /// the vertex is placed. The values of the vertex are those with the least error at this point.
     pub(super) fn placing(&self, pair: Pair) -> Quadric {
         self.least(pair, &self.placing, 0..self.n_placing)
     }
 
     /// Returns the integral of the squared error of the given components, as a function of the point at which the
-    /// vertex is placed. At each point, the vertex has the values with the least error.
+    /// vertex is placed. The values of the vertex are those with the least error at this point.
     fn least(&self, pair: Pair, quadrics: &[Quadric], components: Range<usize>) -> Quadric {
         let [a, b] = pair.map(|wedge| quadrics[wedge as usize]);
         let area = self.area(pair);
@@ -150,7 +150,7 @@ impl Appearance {
         error
     }
 
-    /// Returns the integral of the squared error of all attributes for a vertex at `point` whose values are
+    /// Returns the integral of the squared error of all attributes, if the vertex is at `point` and its values are
     /// interpolated between the two wedges. `t` is the weight of the second wedge, from 0 to 1.
     pub(super) fn error(&self, pair: Pair, point: DVec3, t: f64) -> f64 {
         let [a, b] = pair.map(|wedge| self.values_of(wedge));
@@ -184,8 +184,8 @@ impl Appearance {
         values
     }
 
-    /// Returns the values with the least error if the vertex is placed at `point`. The values are limited to the range
-    /// of the values of the wedges in `around`.
+    /// Returns the values with the least error if the vertex is placed at `point`. Each component stays between its
+    /// lowest and its highest value at the wedges in `around`.
     pub(super) fn best(&self, pair: Pair, around: &Around, point: DVec3) -> Vec<f64> {
         let area = self.area(pair);
         if area.is_nan() || area <= 0.0 {
@@ -243,8 +243,9 @@ impl Appearance {
         Around(faces)
     }
 
-    /// Whether a collapse would turn a triangle over in the texture. `merged` lists the pairs of wedges (groups of face
-    /// corners at a vertex) that the collapse merges. Each pair is listed with the values of the merged wedge.
+    /// Whether a collapse would turn a triangle over in the texture, or make it degenerate there. `merged` lists the
+    /// pairs of wedges (groups of face corners at a vertex) that the collapse merges. Each pair is listed with the
+    /// values of the merged wedge.
     pub(super) fn turns(&self, around: &Around, merged: &[(Pair, Vec<f64>)]) -> bool {
         let new = |wedge: u32| {
             let merged = merged.iter().find(|(pair, _)| pair.contains(&wedge));

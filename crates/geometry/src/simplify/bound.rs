@@ -96,7 +96,8 @@ const SLACK: f64 = 1e-9;
 
 impl Patch {
     /// Returns, for each new triangle, a bound on its distance to the original surface. The old and the new triangles
-    /// are projected along the mean normal. Returns `None` unless both projections cover the same region exactly once.
+    /// are projected along the mean normal. Returns `None` if a projected triangle is turned over or degenerate, or if
+    /// the new triangles make more than one full turn around the new vertex.
     fn bounds(&self) -> Option<Vec<f64>> {
         let twice_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
         let sum: DVec3 = self
@@ -126,9 +127,9 @@ impl Patch {
         if !all().all(faces_ahead) || n_turns(&new) > 1 {
             return None;
         }
-        // Seen along the projection, the points between the old and the new boundary are covered either only by the old
-        // triangles or only by the new triangles. If only the old triangles cover a point, its distance from the new
-        // triangles is at most its distance from their boundary. The same is true with old and new exchanged.
+        // In the projection, a point between the old and the new boundary is covered either only by the old triangles
+        // or only by the new triangles. If only the old triangles cover the point, its distance from the new triangles
+        // is at most its distance from the new boundary. The same is true with old and new exchanged.
         let beyond = self.cut.map_or(0.0, |(removed, [p, q])| {
             let largest = self
                 .old

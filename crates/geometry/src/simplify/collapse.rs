@@ -12,7 +12,7 @@
 //!    of the third stage for another chosen edge.
 //!
 //! Most of the time is spent waiting for memory. Therefore the memory for the next edges is prefetched, and the mesh is
-//! compacted each time when half of its faces are gone.
+//! compacted whenever half of its faces are gone.
 
 use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, parallel, prefetch};
 use progress::{Cancelled, Meter, Progress};
@@ -29,11 +29,11 @@ use super::target::Target;
 /// torus of 1,000,000 triangles takes 1.3 times as long on two processors.
 const BATCH: usize = 65_536;
 
-/// How many edges the prefetched edge is ahead of the edge whose cost is computed.
+/// The memory of an edge is prefetched this number of edges before the cost of the edge is computed.
 const AHEAD: usize = 8;
 
-/// The number of edges of a batch that a thread visits at a time in the first stage. Waking a thread takes longer than
-/// the visits of a smaller part.
+/// The number of edges of a batch that a thread visits at a time in the first stage. For a much smaller number of
+/// edges, waking a thread would take longer than visiting the edges.
 const PART: usize = 2048;
 
 /// The data that is computed for an allowed collapse before the mesh changes.
@@ -45,7 +45,7 @@ struct Plan {
     values: Option<Merge>,
 }
 
-/// The edges of a part of a batch, sorted by the result of the first stage.
+/// The edges of a part of a batch, divided into groups by the first stage.
 #[derive(Default)]
 struct Part {
     /// The edges that can be collapsed next.
@@ -169,7 +169,8 @@ impl Collapser<'_> {
         }
     }
 
-    /// Computes the costs of edges again if the ends of the edges have changed, and sorts the edges by the result.
+    /// Divides edges into the groups of [`Part`]. For this, computes the cost of an edge again if one of its ends has
+    /// changed.
     fn sort_out(&self, entries: &[Entry]) -> Part {
         let pass = self.queue.pass();
         let mut part = Part::default();

@@ -27,7 +27,7 @@ pub(super) struct Node {
     pub(super) kind: Kind,
 }
 
-/// The passes in which a vertex or its surroundings last changed.
+/// When a vertex or its surroundings last changed: numbers of passes.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Mark {
     /// The last pass in which an edge at the vertex or at one of its neighbors was chosen for a collapse.
@@ -48,7 +48,7 @@ pub(super) struct Collapser<'a> {
     pub(super) scale: f64,
     /// For each vertex, the data from which the costs of its edges are computed.
     pub(super) nodes: Vec<Node>,
-    /// For each vertex, the passes in which it last changed.
+    /// For each vertex, when it or its surroundings last changed.
     pub(super) marks: Vec<Mark>,
     /// For each face index, a bound on the distance between the face and the original surface. The list is empty if
     /// there is no error limit.
@@ -57,7 +57,8 @@ pub(super) struct Collapser<'a> {
     pub(super) lines: Vec<bool>,
     pub(super) states: Vec<State>,
     pub(super) queue: Queue,
-    /// The tree of the boxes of the faces. `None` if collapses that cause intersections are allowed.
+    /// The tree of the bounding boxes of all faces, with which intersections are found. `None` if collapses that cause
+    /// intersections are allowed.
     pub(super) contacts: Option<Contacts>,
     pub(super) options: &'a Options<'a>,
 }

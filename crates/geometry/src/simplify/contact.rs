@@ -14,8 +14,8 @@ type Bounds = [DVec3; 2];
 
 const EMPTY: Bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
 
-/// The bounding boxes of all faces, in a complete binary tree. Each face always keeps the same leaf. When a face
-/// changes, the boxes of its leaf and of the nodes above this leaf are updated.
+/// The bounding boxes of all faces, in a complete binary tree. A face stays in the same leaf during the whole
+/// simplification. When a face changes, the boxes of its leaf and of the nodes above this leaf are updated.
 pub(super) struct Contacts {
     /// The children of node i are 2 i and 2 i + 1. The second half of the nodes are the leaves.
     boxes: Vec<Bounds>,

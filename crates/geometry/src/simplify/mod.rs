@@ -3,16 +3,16 @@
 //! Edges are collapsed, those with the lowest cost first. Each vertex represents a part of the original surface. Before
 //! the first collapse, this part is a third of the area of each triangle around the vertex. After a collapse, the new
 //! vertex represents the parts of both ends of the edge. The main part of the cost of a collapse is the squared
-//! distance from the new vertex to the planes of the original triangles that it represents. This squared distance is
-//! integrated over the represented area, and divided by the square root of this area. Source of the squared distance:
-//! Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
+//! distance from the new vertex to the planes of the original triangles that the vertex represents. This squared
+//! distance is integrated over the represented area, and divided by the square root of this area. Source of the squared
+//! distance: Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
 //!
 //! The division by the square root of the area balances large and small details. Without any division, small details
 //! would count too little. With a division by the area instead of its square root, small details would count too much.
 //! For example, a model of a rocker arm was reduced to a tenth of its 20,088 triangles. Without any division, the
 //! largest distance between the original and the simplified surface was 0.5 % of the diagonal of the bounding box. With
-//! a division by the area or by its square root, the largest distance was 0.3 %. With a division by the square root of
-//! the area, the mean distance was 5 % smaller than with a division by the area itself.
+//! a division by the area or by the square root of the area, the largest distance was 0.3 % of this diagonal. With a
+//! division by the square root of the area, the mean distance was 5 % smaller than with a division by the area itself.
 //!
 //! A small part of the cost is the squared distance from the new vertex to the centers of the original triangles that
 //! the vertex represents. This part prevents thin triangles, similar to Trettner, Kobbelt, "Fast and Robust QEM
@@ -90,7 +90,7 @@ pub enum Blocked {
     Lines,
     /// The two ends of the edge differ in a tag, in a whole-number attribute or in sharpness.
     Labels,
-    /// A triangle would turn over or become degenerate, on the surface or in a texture.
+    /// A triangle would turn by more than 78° on the surface, turn over in a texture, or become degenerate.
     Turned,
     /// The topology of the surface would change.
     Topology,
@@ -140,13 +140,13 @@ pub enum SimplifyError {
 /// The topology is preserved: the Euler characteristic, the boundary loops and the graph that the lines form do not
 /// change. No collapse turns a triangle by more than 78° on the surface, or turns a triangle over in the texture. The
 /// vertices that remain can move, with these exceptions: pinned vertices, the ends and meeting points of lines, and
-/// vertices on a line at which the attributes of the edges of the line change.
+/// vertices that join two edges of a line with different attributes.
 ///
 /// Errors of interpolated attributes of vertices and corners, including normals, are a part of the cost of a collapse.
 /// A vertex to which an edge is collapsed gets new values. If the edge is on a line, or if one of its ends keeps its
-/// position, these are the values at the point of the edge that is nearest to the vertex. In all other cases, these are
-/// the values with the least error, limited to the range of the values around the edge. Each side of a seam gets its
-/// values separately. Isolated vertices are preserved.
+/// position, the values are interpolated along the edge, at the point nearest to the vertex. In all other cases, the
+/// vertex gets the values with the least error, limited to the range of the values around the edge. Each side of a seam
+/// gets its values separately. Isolated vertices are preserved.
 ///
 /// # Errors
 ///

@@ -59,8 +59,9 @@ impl Quadric {
         let solve = |p: DVec3| p.x * inverse[0] + p.y * inverse[1] + p.z * inverse[2];
         let lowest = -solve(sum.b);
         // The added quadric `weak` moves the lowest point of the sum a little away from the lowest point of this
-        // quadric. One Newton step for this quadric, with the matrix of the sum, moves the point back. After this step,
-        // the point differs from the lowest point only in directions in which this quadric hardly changes.
+        // quadric. One Newton step moves the point back. The step uses the gradient of this quadric and the matrix of
+        // the sum. After this step, the point differs from the lowest point only in directions in which this quadric
+        // hardly changes.
         Some(lowest - solve(self.times(lowest) + self.b))
     }
 

@@ -23,8 +23,8 @@ pub(super) struct Queue {
 /// The index of a level.
 pub(super) type Level = u16;
 
-/// The level of a cost is its bit pattern as an `f64`, without this number of low bits. The exponent and the highest 3
-/// bits of the fraction remain, so costs within a level differ by at most 12.5 %.
+/// The level of a cost is the bit pattern of the cost as an `f64`, shifted right by this number of bits. The exponent
+/// and the highest 3 bits of the fraction remain, so costs within a level differ by at most 12.5 %.
 const SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - 3;
 
 impl Queue {
@@ -86,8 +86,8 @@ impl Queue {
     }
 }
 
-/// Returns the index of the level of a cost. The cost must not be negative. A cost that is NaN belongs to the last
-/// level.
+/// Returns the index of the level (group of nearly equal costs) to which a cost belongs. The cost must not be negative.
+/// A cost that is NaN belongs to the last level.
 pub(super) fn level_of(cost: f64) -> Level {
     let cost = if cost.is_nan() { f64::INFINITY } else { cost };
     Level::try_from(cost.to_bits() >> SHIFT).expect("14 bits")

@@ -12,11 +12,11 @@ use super::collapser::Collapser;
 use super::quadric::Quadric;
 
 /// The weight of one term in the cost of a collapse: the squared distance from the vertex to the centers of the
-/// original triangles that the vertex represents. The squared distance to the planes of these triangles has the
-/// weight 1. If `ROUNDNESS` were 0, triangles would become thin where the surface is flat or curved in one direction
-/// only. As an example, a torus of 1,000,000 triangles was reduced to a tenth. With the weight 1e-6, one percent of the
-/// triangles have an angle below 9°. With the weight 2e-5, one percent of the triangles have an angle below 15°. The
-/// distance between the original and the simplified surface is the same for both weights.
+/// original triangles that the vertex represents. The squared distance to the planes of these triangles has the weight
+/// 1. If `ROUNDNESS` were 0, triangles would become thin where the surface is flat or curved in one direction only. As
+/// an example, a torus of 1,000,000 triangles was reduced to a tenth of its triangles. With the weight 1e-6, one
+/// percent of the triangles have an angle below 9°. With the weight 2e-5, one percent of the triangles have an angle
+/// below 15°. The distance between the original and the simplified surface is the same for both weights.
 const ROUNDNESS: f64 = 2e-5;
 
 /// The weight that is used instead of [`ROUNDNESS`] when the new position of a vertex is chosen. This weight is so
@@ -24,7 +24,7 @@ const ROUNDNESS: f64 = 2e-5;
 /// surface.
 const FIRMNESS: f64 = 1e-8;
 
-/// The smallest cosine of the angle by which a collapse is allowed to turn a triangle: 0.2, for 78°.
+/// A collapse is allowed to turn a triangle by at most 78°, the angle with this cosine.
 const TURN: f64 = 0.2;
 
 /// The vertex to which an edge would collapse: its position, its values and the cost.
@@ -116,11 +116,11 @@ impl Collapser<'_> {
         })
     }
 
-    /// Returns the error of the line of `e` after a collapse of `e` to `point`. The error is d times s. Here d is the
-    /// largest squared distance from an end of `e` to the line after the collapse, and s is the sum of the squared
-    /// lengths of the two edges of the line that change. This term of the cost is needed if a short edge joins two long
-    /// edges of different directions. Without this term, each end of the short edge could leave one of the long edges
-    /// at no cost.
+    /// Returns the error of the line that contains `e`, after `e` is collapsed to `point`. The error is d times s. Here
+    /// d is the largest squared distance from an end of `e` to the line after the collapse. The collapse changes the
+    /// edges of the line just before and just after `e`; s is the sum of their squared lengths after the collapse. This
+    /// term of the cost is needed if a short edge joins two long edges of different directions. Without this term, each
+    /// end of the short edge could leave one of the long edges at no cost.
     fn line_error(&self, e: EdgeId, point: DVec3) -> f64 {
         let ends = self.mesh.edge_vertices(e);
         let neighbors = ends.map(|v| {
@@ -171,8 +171,8 @@ impl Collapser<'_> {
         Ok(Some((around, merged)))
     }
 
-    /// Checks whether the labels (tags and whole numbers) of the ends, the lines, and the directions of the triangles
-    /// allow the collapse of an edge.
+    /// Checks whether an edge can be collapsed. Returns an error if its ends differ in a tag, a whole number or
+    /// sharpness, if a triangle would turn too far, or if two edges of lines would merge.
     pub(super) fn check(&self, e: EdgeId, target: &Target) -> Result<(), Blocked> {
         let [a, b] = self.mesh.edge_vertices(e);
         if self.labels_differ(a, b) {
@@ -199,7 +199,8 @@ impl Collapser<'_> {
             || sharpness.is_some_and(|sharpness| sharpness[a.index()] != sharpness[b.index()])
     }
 
-    /// Whether a triangle at `v`, but not at `other`, would turn over or become degenerate if `v` moved to `point`.
+    /// Whether a triangle at `v`, but not at `other`, would turn by more than 78° or become degenerate if `v` moved to
+    /// `point`.
     fn turns(&self, v: VertexId, other: VertexId, point: DVec3) -> bool {
         let old = self.position(v);
         self.mesh.vertex_half_edges(v).any(|h| {
@@ -223,8 +224,8 @@ impl Collapser<'_> {
     }
 }
 
-/// Returns the position, along an edge, of its point that is nearest to `point`: from 0 at the first end to 1 at the
-/// second end.
+/// Finds the point of an edge that is nearest to `point`. Returns the position of this point along the edge: from 0 at
+/// the first end to 1 at the second end.
 fn along([a, b]: [DVec3; 2], point: DVec3) -> f64 {
     let t = (point - a).dot(b - a) / (b - a).length_squared();
     if t.is_nan() { 0.5 } else { t.clamp(0.0, 1.0) }

@@ -24,8 +24,8 @@ use front::{Front, Update};
 
 /// The largest number of entries of a factor. This number of entries takes 16 GiB.
 const MAX_ENTRIES: u64 = 1 << 31;
-/// A solution is accepted if its residual is at most this number times the size of the terms. For each equation, the
-/// absolute values of its terms are added up. The size of the terms is the largest of these sums.
+/// A solution is accepted if its residual is at most this number times the size of the terms of the equations. For each
+/// equation, the absolute values of its terms are added up. The size of the terms is the largest of these sums.
 const MAX_RESIDUAL: f64 = 1e-9;
 /// The refinement of a solution stops when its relative residual is at most this number, when the residual hardly
 /// decreases, or after [`REFINEMENTS`] steps.
@@ -42,8 +42,9 @@ pub struct Factor<'a> {
     /// The rows of the free unknowns: the unknowns that are not pinned.
     free: Vec<u32>,
     symbolic: Symbolic,
-    /// The entries of L, in several parts, each for consecutive supernodes. A supernode is a range of columns with
-    /// entries in the same rows. The entries of a supernode are one slice of a part, column by column.
+    /// The entries of L, as a list of parts. Each part has the entries of consecutive supernodes. A supernode is a
+    /// range of columns with entries in the same rows. The entries of a supernode are one slice of a part, column by
+    /// column.
     values: Vec<Vec<f64>>,
     /// For each supernode, where its entries are: the index of a part of `values`, and the index of the first entry in
     /// that part.
@@ -141,7 +142,8 @@ impl<'a> Factor<'a> {
         self.symbolic.n_entries()
     }
 
-    /// Computes the entries of L and of D. Returns both as lists of parts; each part belongs to consecutive supernodes.
+    /// Computes the entries of L and of D. Returns the entries of L and the entries of D as two lists of parts. Each
+    /// part has the entries of consecutive supernodes.
     #[expect(clippy::type_complexity, reason = "two lists of parts")]
     fn eliminate<I: Iterator<Item = (u32, f64)>>(
         &self,

@@ -145,9 +145,9 @@ impl Quotient {
         }
     }
 
-    /// Eliminates a variable with the lowest degree. Also eliminates each neighbor of the variable that then has no
-    /// neighbors outside the new element (the clique that replaces the variable). `remaining` is the number of rows
-    /// that are not eliminated. Returns the number of eliminated rows.
+    /// Eliminates a variable with the lowest degree. A new element (a clique) replaces the variable. Neighbors of the
+    /// variable that then have no neighbors outside the new element are eliminated too. `remaining` is the number of
+    /// rows that are not eliminated. Returns the number of eliminated rows.
     fn eliminate(&mut self, remaining: usize) -> usize {
         let p = self.buckets.lowest();
         self.buckets.remove(p, self.degree[p as usize]);
@@ -279,7 +279,8 @@ impl Quotient {
     }
 
     /// Whether the lists of `j` have the same lengths as the lists of `i`, and contain only entries that are marked
-    /// with the current stamp. A variable and an element never have the same number, so one list of marks is enough.
+    /// with the current stamp. Variables and elements never have the same number, so one list of marks is enough for
+    /// both.
     fn has_marked_lists_like(&self, j: u32, i: u32) -> bool {
         let [i, j] = [i as usize, j as usize];
         let lists = self.variables[j].iter().chain(&self.elements[j]);

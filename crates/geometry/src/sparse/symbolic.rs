@@ -47,11 +47,12 @@ impl Supernode {
     }
 }
 
-/// Stands for the parent if a column has no parent in the elimination tree.
+/// Stands for a missing column, for example if a column has no parent in the elimination tree.
 const NONE: u32 = u32::MAX;
 
 impl Symbolic {
-    /// Computes the pattern. `neighbors(i)` iterates over the columns of row i in any order, with or without i.
+    /// Computes the pattern. `neighbors(i)` iterates over the columns of row i in any order. It does not matter whether
+    /// the column i itself is among them.
     pub(super) fn new<I: Iterator<Item = u32>>(
         order: &[u32],
         neighbors: impl Fn(usize) -> I,

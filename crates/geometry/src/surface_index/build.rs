@@ -21,7 +21,7 @@ const WHAT: &str = "build the spatial index";
 /// The center of a triangle, and the index of the triangle in the order of the faces.
 type Key = (DVec3, u32);
 
-/// A flat convex face with at least this number of corners is cut in two halves, which are cut in the same way.
+/// A flat convex face with at least this number of corners is repeatedly cut in half.
 const MANY_CORNERS: usize = 64;
 
 /// The number of triangles that are copied between two progress reports.
@@ -33,9 +33,9 @@ const REPORT: usize = 16_384;
 /// Appends the triangles of a face. A face with at most four corners is divided into a fan of triangles. A face with
 /// more than four corners is triangulated by `cutter`, because the triangles of a fan could lie on top of each other. A
 /// point near a face would then be near all triangles of its fan, and searches would be slow. A flat convex face with
-/// at least 64 corners is an exception: it is cut in two halves, which are cut in the same way. If the corners of a
-/// flat convex face lie on a circle, for example, `cutter` would make long and thin triangles. A point would then be
-/// inside the bounding boxes of many of these triangles, and searches would be slow.
+/// at least 64 corners is an exception: it is repeatedly cut in half. If the corners of a flat convex face lie on a
+/// circle, for example, `cutter` would make long and thin triangles. A point would then be inside the bounding boxes of
+/// many of these triangles, and searches would be slow.
 ///
 /// # Errors
 ///
@@ -165,7 +165,7 @@ impl SurfaceIndex {
     }
 }
 
-/// A subtree that has not been built yet, with the lists that its nodes are written to.
+/// A subtree that has not been built yet, and the lists into which its nodes are written.
 struct Subtree<'a> {
     keys: &'a mut [Key],
     nodes: &'a mut [Node],

@@ -26,8 +26,8 @@ pub fn self_intersecting_faces(
     };
     let slots = mesh.domain_len(Domain::Face);
     let is_found: Vec<AtomicBool> = (0..slots).map(|_| AtomicBool::new(false)).collect();
-    // A pair of triangles is skipped if both of their faces are already marked, because the test could not mark another
-    // face.
+    // A pair of triangles is skipped if both of their faces are already marked, because testing the pair could not mark
+    // any further face.
     let visit = |i: u32, j: u32| {
         let faces = [i, j].map(|i| index.origins[i as usize].face);
         let found = faces.map(|f| &is_found[f.index()]);

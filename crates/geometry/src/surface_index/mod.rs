@@ -42,8 +42,8 @@ use slab::Slab;
 pub use triangle::{nearest_on_triangle, triangle_distance};
 pub use winding::Winding;
 
-/// The triangles of a surface in a tree of boxes. The index copies the triangles, so later changes of the mesh do
-/// not affect it.
+/// The triangles of a surface, sorted into a tree of boxes. The index copies the triangles, so later changes of the
+/// mesh do not affect it.
 #[derive(Clone, Debug)]
 pub struct SurfaceIndex {
     nodes: Vec<Node>,

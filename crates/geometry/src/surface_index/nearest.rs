@@ -172,8 +172,8 @@ impl SurfaceIndex {
     }
 
     /// Returns, for each of the points `point(0)` to `point(n - 1)`, the nearest point of the surface. Where `point`
-    /// returns `None`, the entry is also `None`. After every few points, calls `done` with the number of points that
-    /// were processed since the last call of `done`. Stops if `done` returns an error.
+    /// returns `None`, the entry is also `None`. After each group of at most 128 points, calls `done` with the number
+    /// of points in the group. Stops if `done` returns an error.
     pub(crate) fn nearest_to_all(
         &self,
         n: usize,

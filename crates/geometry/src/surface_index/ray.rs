@@ -37,8 +37,8 @@ impl SurfaceIndex {
     /// finite, meets nothing.
     ///
     /// A shear makes the ray parallel to an axis: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013.
-    /// The signs of areas are computed exactly, and an area of zero gets the sign that it would have after an
-    /// infinitely small movement of the ray.
+    /// The signs of areas are computed exactly. An area of zero gets the sign that it would have after an infinitely
+    /// small movement of the ray.
     pub fn ray(&self, origin: DVec3, direction: DVec3) -> Option<RayHit> {
         let mut first: Option<RayHit> = None;
         self.visit_ray(origin, direction, &mut |hit| {
@@ -50,8 +50,8 @@ impl SurfaceIndex {
         first
     }
 
-    /// Returns all points where a ray meets the surface, in their order along the ray. The rules of [`ray`](Self::ray)
-    /// apply.
+    /// Returns all points where a ray meets the surface, in their order along the ray. Whether the ray meets a triangle
+    /// is decided as in [`ray`](Self::ray).
     pub fn ray_all(&self, origin: DVec3, direction: DVec3) -> Vec<RayHit> {
         let mut hits = Vec::new();
         self.visit_ray(origin, direction, &mut |hit| {
@@ -118,7 +118,8 @@ impl SurfaceIndex {
             }
             let mut children = [i + 1, node.right as usize]
                 .map(|i| ray.enters(&self.nodes[i]).map(|enter| (i, enter)));
-            // The nearer child is visited first, because a hit in it makes it possible to skip the other child.
+            // The nearer child is visited first: if the ray meets a triangle there, the other child can often be
+            // skipped.
             if let [Some(one), Some(two)] = children
                 && one.1 <= two.1
             {

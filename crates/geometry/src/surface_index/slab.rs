@@ -37,8 +37,8 @@ impl Slab {
         high: f64::INFINITY,
     };
 
-    /// Returns the slab of `n` triangles. `normal` is the sum of the area vectors of the triangles, or a multiple of
-    /// this sum.
+    /// Returns the slab (two parallel planes) around `n` triangles. `normal` is the sum of the area vectors of the
+    /// triangles, or a multiple of this sum.
     pub(super) fn of<'a>(
         triangles: impl Iterator<Item = &'a [DVec3; 3]>,
         n: usize,

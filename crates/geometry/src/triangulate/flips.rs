@@ -43,9 +43,10 @@ pub(super) struct Flips {
 }
 
 impl Flips {
-    /// Improves counter-clockwise triangles whose corners are in ascending order, and sorts them. Stops early if the
-    /// number of flips reaches [`MAX_FLIPS`] times the number of corners of the polygon, or if `is_cancelled` returns
-    /// `true`. The triangulation is then valid, but some of its diagonals are possibly not Delaunay.
+    /// Improves a triangulation by flips, and sorts its triangles. The triangles must be counter-clockwise, and the
+    /// corners of each triangle in ascending order. Stops early if the number of flips reaches [`MAX_FLIPS`] times the
+    /// number of corners of the polygon, or if `is_cancelled` returns `true`. The triangulation is then valid, but some
+    /// of its diagonals are possibly not Delaunay.
     pub(super) fn improve(
         &mut self,
         points: &[[f64; 2]],

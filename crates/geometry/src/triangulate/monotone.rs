@@ -91,8 +91,8 @@ impl<'a> Polygon<'a> {
     /// like brackets. They are sorted by their second corner, and an inner diagonal comes before an outer one.
     fn diagonals(&self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<[u32; 2]>> {
         let n = u32::try_from(self.points.len()).expect("corners fit 32 bits");
-        // The sides of the polygon that the horizontal sweep line meets now and that have the inside of the polygon on
-        // their right.
+        // The sides of the polygon that the horizontal sweep line meets now. Only sides with the inside of the polygon
+        // to their right are listed.
         let mut sides: BTreeSet<Side> = BTreeSet::new();
         // Each side in `sides` has a helper: the last processed corner whose nearest side to the left is this side. At
         // first, the helper is the first corner of the side. `helpers` is indexed by the first corner of the side.
@@ -188,8 +188,8 @@ impl<'a> Polygon<'a> {
     }
 }
 
-/// A side of the polygon that the horizontal sweep line meets. The search for the side to the left of a corner uses the
-/// same type. In this search, `upper` is the corner, and `lower` is one of the two corners next to it.
+/// A side of the polygon that the horizontal sweep line meets. To search for the side to the left of a corner, a `Side`
+/// is made from the corner itself: `upper` is the corner, and `lower` is one of the two corners next to it.
 #[derive(Clone, Copy)]
 struct Side {
     upper: DVec2,
@@ -253,7 +253,7 @@ mod tests {
         [radius * libm::cos(angle), radius * libm::sin(angle)]
     }
 
-    /// Returns the next number of a sequence. All numbers are from 0 to 1.
+    /// Returns the next number of a pseudo-random sequence. All numbers are from 0 to 1.
     fn next(state: &mut u64) -> f64 {
         *state = state
             .wrapping_mul(6_364_136_223_846_793_005)

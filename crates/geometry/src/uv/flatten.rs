@@ -14,8 +14,8 @@ const AREA_WEIGHT: f64 = 0.5;
 /// than this fraction of the size of the part.
 const SMALL_MOVE: f64 = 1e-4;
 const MAX_ITERATIONS: usize = 40;
-/// In the equations, a triangle with zero area gets this height, as a fraction of its longest side. Without a height,
-/// the equations could not be solved.
+/// In the equations, a triangle with zero area gets this height, as a fraction of its longest side. If the height were
+/// 0, the equations could not be solved.
 const FLOOR: f64 = 1e-6;
 
 /// A triangle in its own plane: the corners (0, 0), (x1, 0) and (x2, y2).
@@ -105,7 +105,8 @@ pub(super) fn project(part: &Part) -> Vec<DVec2> {
     points.map(|p| DVec2::new(p.dot(u), p.dot(v))).collect()
 }
 
-/// Returns the entries of a matrix: the quadratic form of the Dirichlet energy of functions on a part.
+/// Returns the entries of the matrix of the Dirichlet energy: a quadratic form of the values of a function at the
+/// vertices of a part.
 fn stiffness(part: &Part, frames: &[Frame]) -> Vec<(u32, u32, f64)> {
     let mut entries = Vec::with_capacity(6 * frames.len());
     for (t, frame) in part.triangles.iter().zip(frames) {

@@ -11,9 +11,9 @@ use crate::tangent::triangles;
 /// quotient is above this number, most of the triangles are thin and oblique.
 const MAX_BOXES: f64 = 16.0;
 
-/// Returns a rotation, as a complex number, that makes the bounding boxes of thin triangles small: it makes their long
-/// sides vertical. To rotate a point, write it as a complex number and multiply it by the rotation. Returns 1 if the
-/// bounding boxes are already small.
+/// Returns a rotation, as a complex number. It makes the long sides of thin triangles vertical, so that the bounding
+/// boxes of the triangles are small. To rotate a point, write it as a complex number and multiply it by the rotation.
+/// Returns 1 if the bounding boxes are already small.
 pub(super) fn upright(triangles: impl Iterator<Item = [DVec2; 3]>) -> DVec2 {
     let (mut boxes, mut areas, mut squares) = (0.0, 0.0, DVec2::ZERO);
     for [a, b, c] in triangles {

@@ -28,10 +28,10 @@ pub struct Packed {
     pub coverage: f64,
 }
 
-/// The largest number of charts that are nested: small charts can lie in the hollows of large charts. If there are more
-/// charts, all charts are packed in rows, because the time for nesting grows faster than the number of charts. For
-/// 3,324 charts on a page of 4096 texels, packing in rows is 15 times as fast as nesting. However, the charts then
-/// cover only 61 % of the page instead of 66 %.
+/// If there are at most this number of charts, the charts are nested: small charts can lie in the hollows of large
+/// charts. Otherwise, all charts are packed in rows, because the time for nesting grows faster than the number of
+/// charts. For 3,324 charts on a page of 4096 texels, packing in rows is 15 times as fast as nesting. However, the
+/// charts then cover only 61 % of the page instead of 66 %.
 const MAX_NESTED: usize = 256;
 
 /// A triangle whose area is at most this fraction of the area of its chart is ignored when the chart is packed.
@@ -307,8 +307,9 @@ impl Shape {
 
     /// Returns a simplified convex hull of the shape, as triangles, and the area of the convex hull before the
     /// simplification. The convex hull is computed by Andrew's monotone chain algorithm (1979). The simplification
-    /// removes corners that change the hull only slightly, as [`MIN_HEIGHT`] specifies (Douglas, Peucker, "Algorithms
-    /// for the Reduction of the Number of Points Required to Represent a Digitized Line or its Caricature", 1973).
+    /// removes corners that change the hull only slightly, as [`MIN_HEIGHT`] specifies. Source of the simplification:
+    /// Douglas, Peucker, "Algorithms for the Reduction of the Number of Points Required to Represent a Digitized Line
+    /// or its Caricature", 1973.
     fn hull(&self) -> (Self, f64) {
         let mut points = self.points.clone();
         points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -375,8 +376,8 @@ struct Motion {
 }
 
 impl Motion {
-    /// Returns the motion that best maps the points of a shape to their packed positions. `density` gives the scale of
-    /// the motion.
+    /// Returns the motion that best maps the points of a shape to their packed positions. The motion multiplies all
+    /// lengths by `density`.
     fn new(shape: &Shape, output: &OutputMesh, atlas: &Atlas, page: Page, density: f64) -> Self {
         let size = DVec2::new(f64::from(atlas.width), f64::from(atlas.height));
         let size = size / f64::from(page.size);

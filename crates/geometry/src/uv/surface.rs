@@ -73,7 +73,8 @@ impl<'a> Surface<'a> {
         is_joined.then(|| number(f.index()))
     }
 
-    /// Returns each face that [`Self::across`] finds across a half-edge of face `f`, together with this half-edge.
+    /// Calls [`Self::across`] for each half-edge of face `f`. Returns the faces that are found, each with the half-edge
+    /// of `f`.
     pub(super) fn neighbors(&self, f: u32) -> impl Iterator<Item = (HalfEdgeId, u32)> + '_ {
         self.half_edges(f)
             .filter_map(|h| Some((h, self.across(h)?)))
@@ -108,9 +109,9 @@ pub(super) fn unit_positions(mesh: &Mesh) -> Vec<DVec3> {
     points.map(|p| (unit(p) - middle) / extent).collect()
 }
 
-/// A part of the surface: a connected set of faces that is cut open along its border and along the seams inside it. The
-/// corners of faces at one point form one vertex of the part only if they are connected across uncut edges. Therefore
-/// the two sides of a cut have different vertices.
+/// A part of the surface: a connected set of faces that is cut open along its border and along the seams inside it.
+/// Face corners at the same point become one vertex of the part only if their faces are connected across uncut edges.
+/// Therefore the two sides of a cut have different vertices.
 pub(super) struct Part {
     /// The faces, in ascending order.
     pub(super) faces: Vec<u32>,

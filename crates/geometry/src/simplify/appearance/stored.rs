@@ -23,8 +23,8 @@ const TEXTURE: f64 = 0.5;
 const NORMAL: f64 = 0.002;
 
 /// The weight of all attributes except texture coordinates and normals. The largest possible error of an attribute is
-/// the difference between its lowest and its highest value. This error counts as much as a distance of this number
-/// times the size of the mesh.
+/// the difference between its lowest and its highest value. In the cost, such an error counts about as much as a
+/// distance: this number times the size of the mesh.
 const OTHER: f64 = 0.02;
 
 impl Appearance {

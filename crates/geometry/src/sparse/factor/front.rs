@@ -139,7 +139,7 @@ fn factor_panel(panel: &mut [f64], m: usize, pivots: &mut [f64]) -> Result<(), (
         for c in block..end {
             let (column, later) = open[(c - block) * m..].split_at_mut(m);
             let d = column[c];
-            // Written as a negation, the condition also rejects NaN.
+            // The condition is written as a negation, so that it also rejects NaN.
             if !(d > 0.0 && d.is_finite()) {
                 return Err((c, d));
             }

@@ -1,5 +1,5 @@
-//! Compares intersection tests of two triangles with exact arithmetic, and searches for intersecting pairs with tests
-//! of all pairs.
+//! Compares the intersection test for two triangles with exact arithmetic, and the search for intersecting pairs with a
+//! test of every pair.
 
 use std::collections::BTreeSet;
 

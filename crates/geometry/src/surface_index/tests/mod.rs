@@ -1,4 +1,4 @@
-//! Compares results of the index with tests of all triangles.
+//! Compares the results of the index with the results of testing every triangle.
 
 mod intersect;
 mod oriented;

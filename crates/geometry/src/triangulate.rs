@@ -188,9 +188,9 @@ impl Cutter {
         let n = self.points.len();
         let side = |i: usize| self.points[(i + 1) % n] - self.points[i % n];
         let turns_left = (0..n).all(|i| normal.dot(side(i).cross(side(i + 1))) > 0.0);
-        // The sides of a convex polygon turn by 360° in total. The component of a side along an axis in the plane
-        // therefore changes its sign exactly twice around the polygon. If the sides turn by more than 360°, the sign
-        // changes more often.
+        // The sides of a convex polygon turn by 360° in total. Therefore the components of the sides along an axis in
+        // the plane change their sign exactly twice on the way around the polygon. If the sides turn by more than 360°,
+        // the sign changes more often.
         let (axis, _) = normal.any_orthonormal_pair();
         let signs = (0..n).map(|i| axis.dot(side(i))).filter(|s| *s != 0.0);
         let signs: Vec<bool> = signs.map(|s| s > 0.0).collect();

@@ -8,8 +8,8 @@ use mesh::{EdgeId, FaceId, Mesh};
 
 pub use edges::{BevelRefusal, Beveled, bevel_edges, shortest_edge_at};
 
-/// The remaining lengths of edges that several bevels cut, one after another. A position that is given as a fraction of
-/// the original length of an edge is converted to a fraction of its current length. Therefore the result does not
+/// The remaining lengths of edges, if several bevels cut them one after another. A position that is given as a fraction
+/// of the original length of an edge is converted to a fraction of its current length. Therefore the result does not
 /// depend on which end of an edge is cut first.
 ///
 /// ```text

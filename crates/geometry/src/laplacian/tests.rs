@@ -8,7 +8,7 @@ fn laplacian(mesh: &Mesh) -> Laplacian {
     Laplacian::new(mesh, &NoProgress).unwrap()
 }
 
-/// Returns a number from -1 to 1 for each index.
+/// Returns a pseudo-random number from -1 to 1, which depends only on the index.
 fn noise(i: usize) -> f64 {
     let mixed = (i as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

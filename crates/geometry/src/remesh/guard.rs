@@ -15,11 +15,11 @@ use crate::distance::Distance;
 use crate::surface_index::SurfaceIndex;
 use crate::surface_index::triangle::nearest_on_triangle;
 
-/// The largest allowed distance of a sample point from the other surface, as a fraction of the limit that applies to
-/// all points. The rest of the limit is a margin for the points between the samples.
+/// The largest allowed distance of a sample point from the other surface, as a fraction of the error limit. The rest of
+/// the limit is a margin for the points between the samples.
 const SHARE: f64 = 0.7;
 
-/// The largest allowed distance between a sample of a new triangle and the original surface, as a fraction of the
+/// The largest allowed distance between a sample point of a new triangle and the original surface, as a fraction of the
 /// target length. This bound also applies if the caller gives no error limit. The bound prevents new edges from cutting
 /// through ridges of the surface that are not marked as features.
 const SOFT: f64 = 0.1;

@@ -31,7 +31,7 @@ struct Taken {
     column: Column,
     /// The weight of the column: a power of two, so that scaled values can be scaled back exactly.
     weight: f64,
-    /// The index of the first component of this column in the list of the components of all columns.
+    /// The index of the first component of this column, in one common list of the components of all columns.
     first: usize,
     /// The number of components of this column, for example 3 for a vector.
     n: usize,

@@ -45,7 +45,7 @@ fn smoothed(mut mesh: Mesh, method: Method, passes: u32) -> Mesh {
     mesh
 }
 
-/// Returns a vector with coordinates from -1 to 1.
+/// Returns a vector with pseudo-random coordinates from -1 to 1.
 fn noise(i: usize) -> DVec3 {
     let number = |k: u64| {
         let mixed = (3 * i as u64 + k + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);

@@ -4,8 +4,7 @@ use mesh::DVec3;
 
 use super::triangles_intersect;
 
-/// Returns the point of the segment from `a` to `b` that is nearest to `p`. Returns `a` if the length of the segment is
-/// 0.
+/// Returns the point of the segment from `a` to `b` that is nearest to `p`. Returns `a` if the segment has length 0.
 pub(crate) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
     let along = b - a;
     let length_squared = along.length_squared();
@@ -153,7 +152,7 @@ pub(super) fn nearest_weights(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> [f64; 3] {
 }
 
 /// Finds the point of a segment that is nearest to `p`. Returns the position of this point along the segment: from 0 at
-/// `a` to 1 at `b`. Returns 0 if the length of the segment is 0.
+/// `a` to 1 at `b`. Returns 0 if the segment has length 0.
 fn along(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     let along = b - a;
     let length_squared = along.length_squared();

@@ -190,9 +190,9 @@ fn tiles(values: &mut [f64], first: usize, end: usize, m: usize, is_packed: bool
 }
 
 impl Tile<'_> {
-    /// Subtracts products of the columns of a panel with `m` rows from the tile. Let l be the entries of the panel, and
-    /// let d be the pivots. Entry (i, j) of the tile decreases by the sum of l(i, c) d(c) l(j, c) over the columns c of
-    /// the panel.
+    /// Updates the tile: subtracts products of the columns of a panel, which has `m` rows. Let l be the entries of the
+    /// panel, and let d be the pivots. Entry (i, j) of the tile decreases by the sum of l(i, c) d(c) l(j, c) over the
+    /// columns c of the panel.
     fn subtract(&mut self, panel: &[f64], m: usize, pivots: &[f64]) {
         let mut sources = panel.chunks_exact(m).zip(pivots);
         let first = self.first;

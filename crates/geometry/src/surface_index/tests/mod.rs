@@ -25,7 +25,7 @@ impl Random {
         (self.0 >> 33) % n
     }
 
-    /// Returns a number from -1 to 1.
+    /// Returns a pseudo-random number from -1 to 1.
     fn number(&mut self) -> f64 {
         self.next(1 << 30) as f64 / f64::from(1 << 29) - 1.0
     }

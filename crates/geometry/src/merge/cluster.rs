@@ -204,7 +204,7 @@ impl Search<'_> {
         self.meter.add(tree.points.len())
     }
 
-    /// Joins the sets of every two points, one of `a` and one of `b`, that are at most one step apart.
+    /// Joins the sets of two points if one of them is in `a`, the other is in `b`, and they are at most one step apart.
     fn join_between(&self, a: &Tree, b: &Tree) {
         let gap = (b.min - a.max).max(a.min - b.max).max(DVec3::ZERO);
         if !self.reach.covers(gap) {

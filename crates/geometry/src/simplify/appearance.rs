@@ -139,8 +139,8 @@ impl Appearance {
         sum
     }
 
-    /// Returns the integral of the squared error of all attributes for a vertex at `point` that has the values with the
-    /// least error.
+    /// Returns the integral of the squared error of all attributes, if the vertex is at `point` and has the values with
+    /// the least error.
     pub(super) fn least_error(&self, pair: Pair, point: DVec3) -> f64 {
         let mut error = self.placing(pair).at(point);
         if self.n_placing < self.n {

@@ -165,8 +165,8 @@ fn meets_flat([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
     contains(p) || contains(q) || (0..3).any(|i| crosses(t[i], t[(i + 1) % 3]))
 }
 
-/// Returns a projection along a coordinate axis. If possible, the axis is chosen so that the projected triangle has an
-/// area that is not zero.
+/// Returns a projection along a coordinate axis. If possible, the axis is chosen so that the projected triangle has a
+/// nonzero area.
 fn flatten(t: &[DVec3; 3]) -> impl Fn(DVec3) -> DVec2 + use<> {
     let along = |axis: usize| move |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
     let axis = (0..3).find(|&axis| {

@@ -11,8 +11,8 @@ use crate::predicates::orient2d;
 /// A point where a ray meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
-    /// The distance of the point from the origin of the ray, as a multiple of the length of the direction. This number
-    /// is not negative.
+    /// The distance of the point from the origin of the ray, as a multiple of the length of the direction vector. This
+    /// number is not negative.
     pub t: f64,
     /// The point.
     pub point: DVec3,

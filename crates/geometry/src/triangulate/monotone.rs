@@ -290,8 +290,8 @@ mod tests {
             .collect()
     }
 
-    /// A rectangle with square holes. Each hole is connected with the lower side by a segment, which the polygon goes
-    /// along in both directions.
+    /// A rectangle with square holes. Each hole is connected with the lower side by a segment. The polygon goes along
+    /// this segment twice, once in each direction.
     fn holes(n: u32) -> Vec<[f64; 2]> {
         let corners = [
             (0, 0),

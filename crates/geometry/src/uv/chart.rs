@@ -21,8 +21,8 @@ pub(super) const MAX_CREASE: f64 = 0.5;
 /// The limits that a chart must not exceed.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
-    /// The smallest allowed cosine of the angle between the smoothed normal of a face of the chart and the mean normal
-    /// of the chart.
+    /// The smallest allowed cosine of the angle between two normals: the smoothed normal of a face, and the mean normal
+    /// of its chart.
     pub(super) min_cosine: f64,
     /// The largest allowed ratio between the area scale of a triangle and the mean scale of the chart. The ratio is the
     /// larger of the two scales, divided by the smaller. The area scale of a triangle is its area in the plane, divided

@@ -37,7 +37,7 @@ const MAX_NESTED: usize = 256;
 /// A triangle whose area is at most this fraction of the area of its chart is ignored when the chart is packed.
 const MIN_AREA: f64 = 1e-11;
 
-/// The smallest height of a triangle of a convex hull, as a fraction of the diagonal of the bounding box of the hull.
+/// The smallest height of a triangle of a convex hull, as a fraction of the diagonal of the hull's bounding box.
 /// Thinner triangles are left out: the crate `uvunwrap` ignores triangles whose height is below 1e-6 times the
 /// diagonal.
 const MIN_HEIGHT: f64 = 4e-6;

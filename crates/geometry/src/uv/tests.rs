@@ -387,8 +387,8 @@ fn long_convex_charts_of_many_triangles_do_not_overlap_after_packing() {
 
 #[test]
 fn a_hull_with_two_points_that_nearly_coincide_stays_in_one_part() {
-    // The mesh has a chart of two quads that overlap in the texture, and six charts that are squares. A corner of one
-    // quad nearly coincides with a corner of the other quad.
+    // The mesh has a chart of two quads that overlap in the texture, and six square charts. A corner of one quad nearly
+    // coincides with a corner of the other quad.
     let (mut positions, mut faces) = (Vec::new(), Vec::<[u32; 4]>::new());
     for (x, y) in [(0, 0), (1, 0), (1, 1), (0, 1), (-1, 0), (-1, 1)] {
         positions.push(DVec3::new(f64::from(x), f64::from(y), 0.0));

@@ -113,8 +113,8 @@ pub fn unwrap(
     })
 }
 
-/// Gives all corners of a face with zero area the same texture coordinates: those of a corner of a face whose area is
-/// not zero.
+/// For each face with zero area, gives all corners the same texture coordinates, which are copied from a face with a
+/// nonzero area at one of its vertices.
 fn collapse(surface: &Surface, uvs: &mut [DVec2]) {
     let mesh = surface.mesh;
     for f in mesh.faces().filter(|f| surface.areas[f.index()] <= 0.0) {

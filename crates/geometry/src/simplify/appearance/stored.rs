@@ -14,12 +14,12 @@ use crate::lines::inverse_power_of_two;
 /// coordinates are scaled so that all triangles together have the same area in the texture as on the surface.
 const TEXTURE: f64 = 0.5;
 
-/// The weight of normals: the difference of two unit normals, times this weight and the size of the mesh, counts as a
-/// distance. The weight is small, because the normals of a mesh depend mostly on the shape of the surface. For example,
-/// if a model of a rocker arm is simplified with five times this weight, the mean distance between the original and the
-/// simplified surface doubles. For the same reason, normals do not affect the positions of vertices. If normals
-/// affected the positions, the largest distance for the rocker arm would be 3.9e-3 of the diagonal of the bounding box
-/// instead of 3.3e-3.
+/// The weight of normals. In the cost, the difference of two unit normals counts about as much as a distance: the
+/// length of the difference, times this weight and the size of the mesh. The weight is small, because the normals of a
+/// mesh depend mostly on the shape of the surface. For example, if a model of a rocker arm is simplified with five
+/// times this weight, the mean distance between the original and the simplified surface doubles. For the same reason,
+/// normals do not affect the positions of vertices. If normals affected the positions, the largest distance for the
+/// rocker arm would be 3.9e-3 of the diagonal of the bounding box instead of 3.3e-3.
 const NORMAL: f64 = 0.002;
 
 /// The weight of all attributes except texture coordinates and normals. The largest possible error of an attribute is
@@ -107,9 +107,9 @@ impl Appearance {
         Some(this)
     }
 
-    /// Adds the linear functions of the attributes on the triangles of a wedge (a group of face corners at a vertex) to
-    /// `fits`. `first` is the first corner of the wedge. Returns the area of the wedge, the integral of the squared
-    /// functions of all attributes except normals, and the same integral for normals.
+    /// Adds to `fits` the linear functions of the attributes on the triangles of a wedge (a group of face corners at a
+    /// vertex). `first` is the first corner of the wedge. Returns three results: the area of the wedge, the integral of
+    /// the squared functions of all attributes except normals, and the same integral for normals.
     fn measure(
         &self,
         mesh: &Mesh,

@@ -44,8 +44,8 @@ pub fn fields_in(root: &Json, part: &Json) -> Vec<FieldDoc> {
 }
 
 /// Returns the fields of a schema. If `with_variants` is set and the type of a field is an enumeration, the description
-/// of the field contains the variants. The fields of these variants are described without variants. Without this limit,
-/// the description would never end, because a selection can contain other selections.
+/// of the field contains the variants. Fields inside these variants are described without their own variants. Without
+/// this limit, the description would never end, because a selection can contain other selections.
 fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     let required: Vec<&str> = schema.required().collect();
     let described = |name: &str| {

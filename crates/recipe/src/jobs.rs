@@ -6,14 +6,14 @@
 //! ```
 //!
 //! A job and the parallel loops inside the job run on the same threads. While every thread has a job, each parallel
-//! loop runs entirely on the thread of its job, without the cost of distributing its work. When no more jobs can start,
-//! idle threads help with the parallel loops of the last jobs. If there is not enough memory for the next job, a thread
-//! without a job returns to the thread pool. If it waited for memory instead, it could not help with the parallel loops
-//! of other jobs. When a thread has completed a job, it frees the memory of the job. If the limits then allow the next
-//! job, the same thread starts it. If the limits still allow one more job, the thread also wakes another thread. While
-//! a job waits for a part of its parallel loop, the thread of the job does not start another job. Therefore, a job
-//! never has to wait until another job on the same thread has ended. There are also no deadlocks in which a job waits
-//! for a lock of another job on the same thread.
+//! loop runs entirely on the thread of its job. This avoids the cost of distributing the work of the loop. When no more
+//! jobs can start, idle threads help with the parallel loops of the last jobs. If there is not enough memory for the
+//! next job, a thread without a job returns to the thread pool. If it waited for memory instead, it could not help with
+//! the parallel loops of other jobs. When a thread has completed a job, it frees the memory of the job. If the limits
+//! then allow the next job, the same thread starts it. If the limits still allow one more job, the thread also wakes
+//! another thread. While a job waits for a part of its parallel loop, the thread of the job does not start another job.
+//! Therefore, a job never has to wait until another job on the same thread has ended. There are also no deadlocks in
+//! which a job waits for a lock of another job on the same thread.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -285,7 +285,7 @@ impl<T> InOrder<T> {
 }
 
 /// The estimated number of bytes of memory for each byte of the input files. This estimate is used if a forecast has no
-/// upper limit for the memory of its meshes. The number includes the file itself, the mesh of the file, and an edited
+/// upper limit for the memory of its meshes. This number covers the file itself, the mesh of the file, and an edited
 /// copy of the mesh. The mesh of a text file is about as large as the file. The mesh of a binary file is up to three
 /// times as large as the file.
 const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
@@ -293,9 +293,9 @@ const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. For each step, the forecast can have an upper limit for
     /// the memory that the meshes take after the step. If all steps have an upper limit, the estimate is the size of
-    /// the input files plus the largest of these limits. Otherwise, the estimate is the larger of two numbers: eight
-    /// times the size of the input files, and the largest amount of memory that the meshes certainly take after any
-    /// step.
+    /// the input files plus the largest of these limits. Otherwise, the estimate is the larger of two numbers. One is
+    /// eight times the size of the input files. The other is the largest amount of memory that the meshes certainly
+    /// take after any step.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

@@ -24,8 +24,8 @@ pub struct Recipe {
     /// The sources to which spans refer: first the text of the recipe itself, then the text of each recipe that it
     /// calls.
     pub sources: Vec<Source>,
-    /// The scopes: each scope is a text with values for its parameters. The first scope is the recipe itself, and each
-    /// call of another recipe adds one scope.
+    /// The scopes: each scope is the text of a recipe, with values for the parameters of this recipe. The first scope
+    /// is the recipe itself, and each call of another recipe adds one scope.
     pub scopes: Vec<Scope>,
     /// The names of the presets of the recipe. A preset is a named set of parameter values.
     pub presets: Vec<String>,
@@ -100,7 +100,7 @@ pub enum OnLoss {
     Warn,
     /// The run fails.
     Error,
-    /// Steps are allowed to lose data with these names. After any other loss, the run fails.
+    /// Steps are allowed to lose data with these names. If a step loses other data, the run fails.
     Allow(Vec<String>),
 }
 
@@ -144,15 +144,15 @@ impl Kind {
 /// A step of a recipe that was read.
 #[derive(Clone, Debug)]
 pub struct RecipeStep {
-    /// The id of the step, which other parts of the recipe use to refer to it.
+    /// The id of the step. Other parts of the recipe use the id to refer to the step.
     pub id: Option<String>,
     /// The current name of the operation, even if the recipe uses an earlier name. If the operation is unknown, this is
     /// the name as written in the recipe.
     pub name: String,
-    /// The label, which is shown to users and which seeds random choices. An example of a label is `clean/Weld#2`. The
-    /// first part contains the names of the calls around the step. The second part is the id of the step, and the third
-    /// part contains the numbers of the repetitions around the step. If the step has no id, the second part is the name
-    /// of the operation.
+    /// The label. It is shown to users, and it seeds random choices. An example of a label is `clean/Weld#2`. The first
+    /// part contains the names of the calls around the step. The second part is the id of the step, and the third part
+    /// contains the numbers of the repetitions around the step. If the step has no id, the second part is the name of
+    /// the operation.
     pub label: String,
     /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,
@@ -190,8 +190,9 @@ impl RecipeStep {
             .map(|on| on.iter().map(|(name, _)| name.clone()).collect())
     }
 
-    /// Returns the step for the repetition number `turn` of a `Repeat` that contains the step, and adds this number to
-    /// the label. If several `Repeat`s contain the step, this function must be called for the innermost `Repeat` first.
+    /// Returns the step after adding the repetition number `turn` to its label. The number belongs to a `Repeat` that
+    /// contains the step. If several `Repeat`s contain the step, this function must be called for the innermost
+    /// `Repeat` first.
     pub(crate) fn in_turn(mut self, turn: u32) -> Self {
         self.turns.insert(0, turn);
         let turns: Vec<String> = self.turns.iter().map(u32::to_string).collect();
@@ -240,8 +241,8 @@ impl Recipe {
             .unwrap_or_default()
     }
 
-    /// Returns the file settings of each scope, such as the folder from which the steps of the scope read. For the
-    /// recipe itself, these settings are `files`. A called recipe reads from its own folder and has its own
+    /// Returns the file settings of each scope, such as the folder that contains the input files of its steps. For the
+    /// recipe itself, these settings are `files`. A called recipe reads files from its own folder and has its own
     /// placeholders.
     pub fn files(&self, files: &Files) -> Vec<Files> {
         let of = |(i, scope): (usize, &Scope)| {
@@ -269,8 +270,8 @@ impl Recipe {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
 
-    /// Adds a location to a diagnostic, and returns the diagnostic. The location consists of the calls that led to the
-    /// scope, and of the index of the source text of the scope in [`Recipe::sources`].
+    /// Adds a location to a diagnostic, and returns the diagnostic. The location has two parts: the chain of calls that
+    /// led to the scope, and the index of the scope's source text in [`Recipe::sources`].
     pub fn located(&self, diagnostic: Diagnostic, scope: usize) -> Diagnostic {
         located(diagnostic, scope, &self.scopes)
     }

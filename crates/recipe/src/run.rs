@@ -119,7 +119,7 @@ pub fn run_from(
 struct Runner<'a> {
     recipe: &'a Recipe,
     settings: Settings<'a>,
-    /// For each scope: the folder from which the steps of the scope read, and the temporary folder to which they write.
+    /// For each scope: the folder that contains its input files, and the temporary folder for its output files.
     files: Vec<Files>,
     /// The file accesses of the current step, or of the current expectation.
     log: FileLog,

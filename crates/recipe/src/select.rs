@@ -1,4 +1,4 @@
-//! Reads selections that are not part of a recipe from text, and resolves them on a mesh.
+//! Reads selections from texts that are not recipes, such as options of the command line, and resolves them on a mesh.
 //!
 //! ```text
 //! "Sharp(above: 30)"   exists only for edges                  ---> edges

@@ -18,9 +18,9 @@ const BOOLEANS: &[&str] = &[
 
 /// Returns the help text of an error about the unknown operation `name`. The text suggests at most three operations.
 /// Operations with a similar name come first, then other operations whose [`words`](op::Entry::words) contain a word of
-/// `name`. If there are such other operations, at most one operation with a similar name is suggested. If no operation
-/// has a similar name or contains a word of `name` in its `words`, the text suggests operations whose names share a
-/// word with `name`. If there is nothing to suggest, the text names the command that lists all operations.
+/// `name`. If there are such other operations, at most one operation with a similar name is suggested. If neither rule
+/// finds an operation, the text suggests operations whose names share a word with `name`. If there is nothing to
+/// suggest, the text names the command that lists all operations.
 ///
 /// If `name` contains a word for a boolean operation, the help text says that there are no boolean operations. The text
 /// then names operations that can be used instead.

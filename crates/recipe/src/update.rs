@@ -165,7 +165,7 @@ fn expectation_at(tree: &Value, span: Span) -> Option<&Value> {
         .find(|item| item.span == span)
 }
 
-/// The changes that make one expectation record the actual value.
+/// The changes that replace the recorded value of one expectation by the actual value.
 struct Fix {
     /// The edits of the text.
     edits: Vec<(Span, String)>,
@@ -175,7 +175,7 @@ struct Fix {
     shown: String,
 }
 
-/// Returns the fix that makes the expectation record the actual value, or the reason why it cannot be fixed.
+/// Returns the changes that replace the recorded value by the actual value, or the reason why this is not possible.
 fn fix(expectation: &Value, found: Option<&ActualValue>) -> Result<Fix, String> {
     let found = found.ok_or(NOT_RECORDED)?;
     let recorded = |field: &str| -> Result<&Value, String> {

@@ -107,7 +107,7 @@ fn encode(message: &str) -> PictureError {
     PictureError::Encode(message.to_owned())
 }
 
-/// Returns the size of all images, which must be the same.
+/// Returns the size of the images. All images must have the same size.
 fn common_size(frames: &[Image]) -> Result<(u32, u32), PictureError> {
     let [Image { width, height, .. }, rest @ ..] = frames else {
         return Err(encode("expected at least 1 image, found 0"));

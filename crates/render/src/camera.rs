@@ -68,7 +68,7 @@ impl Default for Camera {
 impl Camera {
     /// Returns the camera rotated about the upward axis through the point that the camera looks at. A positive angle
     /// moves the camera to the right. A [`Self::Fit`] camera also becomes [steady](Self::Fit::steady): its pictures
-    /// then have the same scale for every direction. `points` are the points of the scene, which determine the upward
+    /// then have the same scale for every direction. `points` are the points of the scene. They determine the upward
     /// axis if it is [`Up::Auto`].
     #[must_use]
     pub fn turned(mut self, degrees: f64, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
@@ -283,7 +283,7 @@ impl Side {
     }
 }
 
-/// A camera with the size of its picture, which projects points of the scene to pixels.
+/// A camera together with the size of its picture. It projects points of the scene to pixels.
 ///
 /// Pixel coordinates start at the upper left corner of the picture and grow to the right and downwards.
 #[derive(Clone, Copy, Debug)]

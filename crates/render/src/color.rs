@@ -156,7 +156,7 @@ pub(crate) fn whole(value: f64) -> usize {
     value as usize
 }
 
-/// Truncates a number like [`whole`], but to 32 bits, which is faster.
+/// Truncates a number to a whole number of 32 bits. This is faster than [`whole`].
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

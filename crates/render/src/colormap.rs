@@ -95,9 +95,10 @@ impl ColorMap {
         self.srgb(class.floor().rem_euclid(8.0) / 7.0 + 1e-9)
     }
 
-    /// Returns the linear red, green and blue of a number. `range` gives the numbers at the two ends of the map. NaN is
-    /// gray. If the second number of `range` is not greater than the first, all numbers have the middle color of the
-    /// map. [`Classes`](Self::Classes) ignores `range` and rounds the number down.
+    /// Returns the linear red, green and blue of a number. `range` gives the numbers that the first and the last color
+    /// of the color map represent. NaN is gray. If the second number of `range` is not greater than the first, all
+    /// numbers have the middle color of the color map. [`Classes`](Self::Classes) ignores `range` and rounds `value`
+    /// down.
     pub fn linear(self, value: f64, [low, high]: [f64; 2]) -> [f32; 3] {
         if value.is_nan() {
             return [0.3; 3];

@@ -86,7 +86,7 @@ struct Differences {
     n: u64,
     /// The number of all pixels.
     total: u64,
-    /// The largest difference of a channel.
+    /// The largest difference between two corresponding channels, from 0 to 255.
     largest: u8,
     /// For the first pixel that differs: the index of its image in the animation, its column and its row.
     first: Option<[usize; 3]>,

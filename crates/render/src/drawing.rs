@@ -129,7 +129,8 @@ pub struct Label {
 /// All input of the rasterizer.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing<'a> {
-    /// The parts. The indices of triangles and faces continue from each part to the next one in this list.
+    /// The parts. Triangles and faces are numbered across all parts: the numbering continues from each part to the
+    /// next.
     pub parts: Vec<Part<'a>>,
     /// Lines and points. Later entries are drawn on top of earlier entries.
     pub lines: Vec<Line>,

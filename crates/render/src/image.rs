@@ -158,8 +158,8 @@ impl Image {
     }
 }
 
-/// Returns a PNG encoder that writes images of equal size and these texts. Also returns the number of channels: 3 if
-/// all pixels of the images are opaque, and 4 otherwise.
+/// Returns an encoder for a PNG file that contains these texts and one or more images of equal size. Also returns the
+/// number of channels: 3 if all pixels of the images are opaque, and 4 otherwise.
 pub(crate) fn encoder<'b>(
     bytes: &'b mut Vec<u8>,
     images: &[Image],

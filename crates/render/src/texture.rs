@@ -204,7 +204,7 @@ impl Texture {
     }
 
     /// Returns four numbers: linear red, green and blue, each multiplied by a weight, and the weight itself. The weight
-    /// is the coverage of the surface, but is never 0.
+    /// is the fraction of the pixel that the surface covers, but it is never 0.
     fn weighted(&self, footprint: &Footprint) -> [f32; 4] {
         footprint.interpolate(|level| {
             self.at_level(level, footprint, |[r, g, b, a]| {

@@ -67,7 +67,8 @@ fn rendering_takes_at_most_the_estimated_memory() {
             let camera = Camera::default();
             check("nothing", &Drawing::default(), &camera, &plain, [500, 500]);
             check("lines", &long_lines(), &camera, &plain, [512, 512]);
-            // The surface surrounds the camera, so triangles behind the camera and near it are clipped.
+            // The surface surrounds the camera, so some triangles are behind the camera or very near it. These
+            // triangles are clipped.
             let (drawing, _) = build(&dense, &plain, &Overlays::default(), &mut |_| None).unwrap();
             for to in [[0.0, 0.0, 0.9], [3e4, 0.0, 0.0]] {
                 let camera = Camera::LookAt {

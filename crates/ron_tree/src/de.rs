@@ -341,8 +341,8 @@ fn read_name<'de, T: DeserializeSeed<'de>>(
 }
 
 /// A field of a struct, or an entry of a map. Fields and entries have different types. With a common type, the code
-/// that reads the name of a field would also contain code for keys of any kind. Reading names is the largest part of
-/// the code that is generated for a struct.
+/// that reads the name of a field would also contain code for keys of any kind. The code that reads names is the
+/// largest part of the code that is generated for a struct.
 trait Pair {
     fn read_key<'de, K: DeserializeSeed<'de>>(&'de self, seed: K) -> Result<K::Value>;
     fn value(&self) -> &Value;

@@ -112,9 +112,9 @@ pub struct Lexer<'s> {
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// The search for the end of a raw string with this number of hashes has failed. For all smaller numbers, the
-    /// search has not failed yet. The end of a later raw string with at least this number of hashes is missing, too.
-    /// The lexer does not search for it, which keeps the time for lexing linear.
+    /// The smallest number of hashes for which a search for the end of a raw string has failed. A later raw string with
+    /// at least this number of hashes has no end either, so the lexer does not search for its end. This keeps the time
+    /// for lexing linear.
     unclosed_hashes: usize,
 }
 

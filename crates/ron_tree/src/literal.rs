@@ -180,7 +180,7 @@ fn unescape<T: DeserializeOwned>(literal: &str) -> Result<T, BadLiteral> {
     })
 }
 
-/// Returns the text of a raw string literal, which starts with `r`.
+/// Returns the text of a raw string literal (a literal that starts with `r`).
 pub(super) fn raw_string(literal: &str) -> String {
     let hashes = literal[1..].find('"').unwrap_or(0);
     literal[2 + hashes..literal.len() - 1 - hashes].to_owned()

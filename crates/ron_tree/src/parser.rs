@@ -190,8 +190,8 @@ impl<'s> Parser<'s> {
     /// Reports an error about the token `current`, unless an error about this token was already reported.
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         let start = self.current.span.start;
-        // `value` always reports an unclosed string or a bad character, so no other error is reported about the same
-        // token.
+        // The function `value` always reports an unclosed string or a bad character, so no other error is reported
+        // about such a token.
         let is_bad = matches!(
             self.current.kind,
             Some(TokenKind::UnclosedString | TokenKind::BadChar)

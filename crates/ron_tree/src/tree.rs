@@ -103,7 +103,7 @@ impl Value {
         }
     }
 
-    /// Returns the value of the field with this name, if it exists.
+    /// Returns the value of the field with this name, if the field exists.
     pub fn field(&self, name: &str) -> Option<&Self> {
         self.fields()
             .iter()
@@ -111,7 +111,7 @@ impl Value {
             .map(|field| &field.value)
     }
 
-    /// Returns the value of the field with this name for modification, if it exists.
+    /// Returns a mutable reference to the value of the field with this name, if the field exists.
     pub fn field_mut(&mut self, name: &str) -> Option<&mut Self> {
         match &mut self.kind {
             ValueKind::Struct(body) => (body.fields.iter_mut())

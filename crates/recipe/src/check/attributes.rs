@@ -237,7 +237,7 @@ struct Needed<'v> {
     is_unbounded: bool,
 }
 
-/// Collects the names in all `Tagged("..")` and `Where(attribute: "..")` in a value, with their spans.
+/// Collects the names in every `Tagged("..")` and every `Where(attribute: "..")` inside a value, each with its span.
 fn needed<'v>(value: &'v Value, names: &mut Vec<Needed<'v>>) {
     if let ValueKind::Call(call) = &value.kind {
         let (is_tag, field) = match &*call.name.text {

@@ -77,7 +77,7 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     check_from(recipe, &Scene::new(), files, budget)
 }
 
-/// Like [`check`], but the steps run on `scene` instead of an empty scene.
+/// Like [`check`], but for a run that starts with `scene` instead of an empty scene.
 pub fn check_from(recipe: &Recipe, scene: &Scene, files: &Files, budget: u64) -> Forecast {
     let mut forecast = Forecast::default();
     let mut plan = Plan::of(scene);

@@ -16,8 +16,8 @@ pub use meshes::{Connectivity, Counts, MeshDifference, Moved};
 /// The comparison of two scenes.
 #[derive(Clone, Debug)]
 pub struct Difference {
-    /// Whether both scenes have the same node graph, and the same objects in the same order. If a pair of compared
-    /// objects has different names, the names are ignored.
+    /// Whether both scenes have the same node graph, and the same objects in the same order. If two objects with
+    /// different names are compared with each other, their names are ignored.
     pub identical: bool,
     /// The names of the objects that only the first scene has.
     pub only_first: Vec<String>,

@@ -1,5 +1,5 @@
-//! Lists the elements of a mesh in a fixed order. To compare two meshes, the elements at the same index in both lists
-//! are compared.
+//! Lists the elements of a mesh in a fixed order. Two meshes are compared element by element: the n-th element in the
+//! list of one mesh with the n-th element in the list of the other mesh.
 
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 

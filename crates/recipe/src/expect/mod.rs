@@ -351,8 +351,8 @@ pub enum Expectation {
     Attribute {
         /// The name of the attribute.
         name: String,
-        /// Which elements. If omitted, all elements of one kind. If several kinds have an attribute of this name, the
-        /// first of vertices, faces, corners and edges is used.
+        /// Which elements. If omitted, all elements of the kind that has the attribute. If several kinds have an
+        /// attribute of this name, the first of these kinds is used: vertices, faces, corners, edges.
         of: Option<Elements>,
         /// The index of the component of a vector, starting at 0. Required for vectors.
         #[schemars(range(max = 3))]

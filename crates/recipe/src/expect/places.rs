@@ -176,7 +176,7 @@ impl CheckedMesh<'_> {
             .collect()
     }
 
-    /// Returns each vertex of either mesh that has no vertex of the other mesh within the tolerance.
+    /// Returns the vertices of both meshes that are farther than the tolerance from every vertex of the other mesh.
     fn unmatched_vertices(&self, other: &Mesh, tolerance: f64) -> Vec<ErrorLocation> {
         let (these, others) = (PositionIndex::new(self.mesh), PositionIndex::new(other));
         let mut places = self.locations(self.mesh.vertices().filter(|&v| {
@@ -193,7 +193,7 @@ impl CheckedMesh<'_> {
 
     /// Returns two locations that show the largest distance between two surfaces. This distance is the length of a line
     /// from a point on one surface to the nearest point on the other surface. The first location is the element of this
-    /// mesh at the end of the line. The second location is the line itself.
+    /// mesh that contains one end of the line. The second location is the line itself.
     fn farthest(&self, found: &Distance) -> Vec<ErrorLocation> {
         let worst = found.worst();
         let on = if found.is_worst_forth() {

@@ -40,7 +40,7 @@ impl<'m> PositionIndex<'m> {
         (best.1 != VertexId::NONE).then_some(best.2)
     }
 
-    /// Whether any vertex is within the tolerance of `p`.
+    /// Whether the distance from any vertex to `p` is at most `tolerance`.
     pub(super) fn any_near(&self, p: DVec3, tolerance: f64) -> bool {
         let mut found = false;
         let all = 0..self.tree.len();
@@ -113,7 +113,7 @@ fn middle(part: &Range<usize>) -> usize {
     part.start + part.len() / 2
 }
 
-/// The free vertices of a k-d tree, which are the vertices that are not matched yet.
+/// The free vertices of a k-d tree: the vertices that are not matched yet.
 struct FreeVertices {
     is_free: Vec<bool>,
     /// Each vertex of the tree splits a part of the tree. For each vertex, this list has the bounding box of the free
@@ -209,8 +209,8 @@ fn split(mesh: &Mesh, tree: &mut [(VertexId, u8)]) {
     split(mesh, &mut above[1..]);
 }
 
-/// Whether the faces of `other` become the faces of `mesh` if each vertex of `other` is replaced by its vertex in
-/// `map`. If `reversed` is set, the winding of the mapped faces is reversed before the comparison.
+/// Whether both meshes have the same faces after each vertex `v` of `other` is replaced by the vertex `map[v]` of
+/// `mesh`. If `reversed` is set, the winding of the mapped faces is reversed before the comparison.
 pub(crate) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: bool) -> bool {
     let canonical = |mut corners: Vec<VertexId>| {
         let lowest = corners

@@ -41,9 +41,9 @@ fn n_fields(value: &Value) -> usize {
 }
 
 /// Removes the field with the number `number`. Fields are numbered in the order in which [`n_fields`] counts them: the
-/// fields of a struct come before the fields of its values. If the value has no field with this number, subtracts the
-/// number of its fields from `number`, so that the search can continue in the next value. After the removal, `number`
-/// is [`usize::MAX`].
+/// fields of a struct come before the fields of its values. If the value has too few fields, `number` is reduced by the
+/// count of these fields, so that the search can continue in the next value. After the removal, `number` is
+/// [`usize::MAX`].
 fn remove_field(value: &mut Value, number: &mut usize) {
     if let ValueKind::Struct(body) = &mut value.kind {
         if *number < body.fields.len() {

@@ -24,7 +24,7 @@ fn textured<'s>(
     Ok(textured)
 }
 
-/// Returns the texture coordinates `name` of the corners.
+/// Returns the texture coordinates with the name `name`: one pair (u, v) for each corner.
 fn coordinates<'m>(mesh: &'m Mesh, name: &str) -> Option<&'m [DVec2]> {
     let column = mesh.attributes().column(Domain::Corner, name)?;
     DVec2::of(&column.values)

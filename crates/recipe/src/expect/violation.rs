@@ -12,7 +12,7 @@ use mesh::DVec3;
 pub struct Violation {
     /// The expected and the actual value, or the reason why the evaluation failed, in one line.
     pub message: String,
-    /// The actual value, if the expectation holds after the expected value is replaced by the actual value.
+    /// The actual value, if the expectation would hold with the actual value in place of the expected value.
     pub found: Option<ActualValue>,
     /// Whether the expectation could not be checked, for example because a file cannot be read. In this case, `Not(..)`
     /// of the expectation does not hold either.
@@ -54,7 +54,7 @@ impl From<&str> for Violation {
     }
 }
 
-/// The actual value, which can replace the expected value in the recipe.
+/// The actual value of an expectation. It can replace the expected value in the recipe.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ActualValue {
     /// An integer, which can replace the value of `eq`.

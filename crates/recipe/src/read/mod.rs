@@ -176,7 +176,7 @@ struct Reader<'s, 'a> {
     source: Source,
     /// The index of the scope.
     scope: usize,
-    /// The text at the start of the labels of all steps that this reader reads.
+    /// The text with which the label of each step begins, if this reader reads the step.
     prefix: String,
     on_loss: OnLoss,
     diagnostics: Vec<Diagnostic>,

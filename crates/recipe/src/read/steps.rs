@@ -229,7 +229,7 @@ pub(super) fn explain_outer_fields(
     }
 }
 
-/// Returns the operation of a step without the fields of the step around it, such as `id` and `on`.
+/// Returns only the operation of a step, without the other fields of the step, such as `id` and `on`.
 fn run_of(mut written: Value) -> Value {
     let is_envelope = matches!(written.kind, ValueKind::Struct(_));
     match written.field_mut("run").filter(|_| is_envelope) {

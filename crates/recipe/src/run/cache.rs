@@ -34,7 +34,7 @@ pub trait CachedRun {
         stage: Option<&Path>,
     ) -> Result<StepResult, RerunReason>;
 
-    /// Stores the result of the step number `number`, which was not in the cache. Steps are counted from 1.
+    /// Stores the result of the step with this number. The cache did not have this result. Steps are counted from 1.
     fn record_step(&mut self, number: usize, label: &str, files: &Files, done: &CompletedStep);
 
     /// Records that the step number `number` ran again because the scene after it was needed. Steps are counted from 1.
@@ -179,8 +179,8 @@ pub enum RerunReason {
     /// The input files of the step could not be determined. The values are a path and the reason.
     #[error("the input files of the step cannot be determined ({}: {})", .0.display(), .1)]
     Unknown(PathBuf, String),
-    /// The scene before the step cannot be identified. The input files of an earlier step could not be determined, and
-    /// that step left removed elements in a mesh.
+    /// The scene before the step cannot be identified. The input files of an earlier step are not known, and after that
+    /// step, a mesh contained removed elements.
     #[error(
         "the scene before the step cannot be identified: an earlier step has unknown input files and left removed elements in a mesh"
     )]

@@ -65,8 +65,8 @@ impl Checker {
         }
     }
 
-    /// Reports an unknown field. The unknown field is probably a missing field with a wrong name. If so, this function
-    /// removes the missing field from `missing`, so that only the unknown field is reported.
+    /// Reports an unknown field. The unknown field is probably a missing field whose name is misspelled. If so, this
+    /// function removes the missing field from `missing`, so that only the unknown field is reported.
     fn unknown_field(
         &mut self,
         value: &Value,
@@ -150,9 +150,9 @@ impl Schema<'_> {
     }
 }
 
-/// Returns the help text for a value that should be a struct but looks like the value of one of its fields. The help
-/// text names the first field that accepts the value. If no field accepts it, the text names the first field. Required
-/// fields come first.
+/// Returns the help text for a value that is not a struct, although its schema requires one, but looks like the value
+/// of a field of this struct. The help text names the first field that accepts the value. If no field accepts it, the
+/// text names the first field. Required fields come first.
 fn with_field_name(value: &Value, schema: &Schema) -> Option<String> {
     let inner = value.single().unwrap_or(value);
     let accepts = |field: &&str| {

@@ -59,8 +59,8 @@ pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
 /// # Errors
 ///
 /// Returns all errors that the check against the schema finds. If the check finds none, returns the error of
-/// deserialization. The list is empty if the only error is a part of the value that could not be read. The parser has
-/// already reported this error.
+/// deserialization. If a part of the value could not be read and there is no other error, the returned list is empty.
+/// The parser has already reported this part.
 pub(crate) fn typed<T: DeserializeOwned>(
     value: &Value,
     schema: &Json,
@@ -122,7 +122,7 @@ impl Rename {
 struct Place<'n> {
     /// The name of the innermost field or variant around the value.
     name: Option<&'n str>,
-    /// Whether the value is only a part of the value of the field or variant.
+    /// Whether the value is inside the value of this field or variant, and not its whole value.
     inside: bool,
 }
 
@@ -377,7 +377,8 @@ impl Checker {
     }
 }
 
-/// Returns the span of the name of a value or, if the value has no name, of its first character.
+/// Returns the span of the name of a value. If the value has no name, returns the span of the first character of the
+/// value.
 fn opening(value: &Value) -> Span {
     match value.name() {
         Some((_, span)) => span,

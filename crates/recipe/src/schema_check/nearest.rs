@@ -34,9 +34,9 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// Returns a lower bound of the edit distance between two names. The bound is the number of letters that only the first
-/// name has, or the number of letters that only the second name has, whichever is larger. The bound is fast to compute
-/// and excludes most names from the slower comparison.
+/// Returns a lower bound of the edit distance between two names. The bound is the larger of two numbers: the number of
+/// letters that only the first name has, and the number of letters that only the second name has. The bound is fast to
+/// compute and excludes most names from the slower comparison.
 fn min_distance(a: &str, b: &str) -> usize {
     let mut surplus = [0_isize; 32];
     a.bytes()

@@ -17,7 +17,7 @@ pub(crate) struct Schema<'s> {
     is_reference: bool,
 }
 
-/// The alternatives of a schema, which are the variants of an enumeration or other schemas.
+/// The alternatives of a schema: the variants of an enumeration, or other schemas.
 #[derive(Debug, Default)]
 pub(super) struct Choice<'s> {
     /// The names of the variants without content.
@@ -294,8 +294,8 @@ impl<'s> Schema<'s> {
         found.next().map(|json| Self::new(self.root, json))
     }
 
-    /// Finds the field that has the name `name`, or had this name in an earlier version. Returns the current name of
-    /// the field and its schema.
+    /// Finds the field that has the name `name`, or had this name in an earlier version. Returns the current name and
+    /// the schema of the field.
     pub(super) fn field_or_alias(&self, name: &str) -> Option<(&'s str, Self)> {
         let fields = || self.all("properties").filter_map(Json::as_object).flatten();
         let (current, json) = fields()

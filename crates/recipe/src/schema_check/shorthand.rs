@@ -23,7 +23,7 @@ pub(super) struct Short {
 }
 
 impl Checker {
-    /// Checks a value that is either a variant or, if the name of the variant was omitted, the content of a variant.
+    /// Checks a value that is either a variant, or the content of a variant whose name was omitted.
     pub(super) fn check_shorthand(
         &mut self,
         value: &Value,
@@ -96,10 +96,9 @@ impl Checker {
                 Some(help),
             );
         }
-        // For each variant, counts how many names in the value are selections that this variant can contain. The
-        // variant with the highest count fits best. If several variants have the same count, the variant with the
-        // fewest errors fits best. If several variants also have the same number of errors, the first of them is
-        // chosen.
+        // For each variant, counts the selections in the value that this variant can contain. The variant with the
+        // highest count fits best. If several variants have the same count, the variant with the fewest errors fits
+        // best. If several variants also have the same number of errors, the first of them is chosen.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };

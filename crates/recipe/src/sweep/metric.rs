@@ -1,4 +1,4 @@
-//! The metrics of a sweep, which are the values that a sweep records for each run.
+//! The metrics of a sweep: the values that a sweep records for each run.
 
 use std::fmt;
 
@@ -46,8 +46,8 @@ pub enum Metric {
     },
     /// A statistic of the values of an attribute, for example of an attribute that `Measure` stored.
     Attribute {
-        /// The name of the attribute. If several kinds of elements have an attribute of this name, the first of
-        /// vertices, faces, corners and edges is used.
+        /// The name of the attribute. If several kinds of elements have an attribute of this name, the first of these
+        /// kinds is used: vertices, faces, corners, edges.
         name: String,
         /// The statistic.
         statistic: Statistic,

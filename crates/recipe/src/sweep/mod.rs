@@ -218,7 +218,7 @@ fn entries(map: Option<&Value>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Entry>
 
 impl Sweep {
     /// Checks the values against the parameters of the recipe, and returns the cells (runs of the recipe). `folder` is
-    /// the folder of the sweep: paths among the values are relative to it.
+    /// the folder of the sweep. Values that are relative paths are relative to this folder.
     ///
     /// # Errors
     ///

@@ -29,7 +29,7 @@ enum Values {
     },
 }
 
-/// Reads the values of a parameter, which are written as `[..]` or `Range(..)`.
+/// Reads the values of a parameter. They are written as `[..]` or `Range(..)`.
 pub(super) fn settings(
     param: &Param,
     value: &Value,

@@ -77,7 +77,7 @@ pub(crate) struct Lift {
     #[serde(alias = "height")]
     #[schemars(extend("aliases" = ["height"]))]
     by: f64,
-    /// How, by current or old names.
+    /// How the vertices are lifted. The variants and their fields also have old names.
     #[serde(default)]
     way: Way,
     /// Which vertices.

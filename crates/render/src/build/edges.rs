@@ -188,8 +188,8 @@ impl Builder<'_, '_> {
     }
 }
 
-/// Estimates the distance between edges near `e` by the mean edge length of the faces beside `e`. The distance is
-/// infinite if `e` has no faces.
+/// Estimates the distance from the edge `e` to neighboring edges: the mean length of the edges of the faces beside `e`.
+/// The distance is infinite if `e` has no faces.
 fn spacing(mesh: &Mesh, e: EdgeId) -> f64 {
     let (mut sum, mut n) = (0.0, 0);
     let faces = mesh.edge_faces(e).into_iter().flatten();

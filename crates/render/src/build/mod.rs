@@ -22,7 +22,7 @@ use crate::texture::TextureCache;
 pub struct Overlays {
     /// Highlighted elements. Later highlights are drawn on top.
     pub highlights: Vec<Highlight>,
-    /// Numbers that are shown as colors, with at most one coloring for each object.
+    /// Colorings: numbers of mesh elements, shown as colors. Each object can have at most one coloring.
     pub colorings: Vec<Coloring>,
     /// Lines and dots that do not belong to an element of a mesh. Strokes are drawn on top of all other lines and dots.
     pub strokes: Vec<Stroke>,
@@ -77,7 +77,7 @@ impl Overlays {
 /// Elements of a mesh that are drawn in a highlight color.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Highlight {
-    /// The name of the object, which must be a mesh.
+    /// The name of the object. The object must be a mesh.
     pub object: String,
     /// The elements. Ids of elements that the mesh does not have are ignored.
     pub elements: Elements,
@@ -103,7 +103,7 @@ pub enum Elements {
 /// One number for each element of a mesh, shown as a color: for example, the curvature at each vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coloring {
-    /// The name of the object, which must be a mesh.
+    /// The name of the object. The object must be a mesh.
     pub object: String,
     /// The elements that have values. Values of edges are shown as colored lines.
     pub domain: ::mesh::Domain,
@@ -148,14 +148,14 @@ pub fn build<'s>(
     build_within(scene, style, overlays, u64::MAX, textures, images)
 }
 
-/// Converts a scene to a drawing like [`build()`], with a memory budget in bytes. Textures that are in `textures` are
-/// not decoded again. All other textures are decoded and added to `textures`.
+/// Like [`build()`], but with a memory budget in bytes. Textures that are already in `textures` are not decoded again.
+/// All other textures are decoded and added to `textures`.
 ///
 /// # Errors
 ///
 /// Returns [`PictureError::Budget`] if the triangles and lines, or the textures, certainly exceed the budget. The size
-/// of the triangles and lines is checked before anything is allocated, and the size of a texture before it is decoded.
-/// Also returns the errors of [`build()`].
+/// of the triangles and lines is checked before anything is allocated, and the size of each texture before the texture
+/// is decoded. Also returns the errors of [`build()`].
 pub fn build_within<'s>(
     scene: &'s Scene,
     style: &Style,

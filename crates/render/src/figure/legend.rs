@@ -263,7 +263,8 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     } else {
         high / steps - low / steps
     };
-    // Between nearly equal ends, several labels would show the same number. Therefore the axis has only one tick.
+    // If the ends of the axis are nearly equal, several labels would show the same number. Therefore such an axis has
+    // only one tick.
     let largest = low.abs().max(high.abs());
     if rough <= largest * 1e-14 {
         return vec![Tick {
@@ -287,8 +288,8 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
         (digit, exponent) = (1, exponent + 1);
     }
     let step = power(format!("{digit}e{exponent}"));
-    // A step is at least 1e-14 times the larger of the absolute values of the two ends. Therefore each end divided by
-    // the step is small enough to be rounded to an exact integer in `f64`.
+    // A step is at least 1e-14 times the absolute value of `low`, and at least 1e-14 times the absolute value of
+    // `high`. Therefore each end divided by the step is small enough to be rounded to an exact integer in `f64`.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the quotients are at most 1e15"
@@ -324,7 +325,7 @@ fn tick_label(digits: i64, exponent: i32, largest: f64) -> String {
     minus(&format!("{value:.decimals$}"))
 }
 
-/// Formats the only number of an axis.
+/// Formats the number of an axis that has only one number.
 fn single_label(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-4..1e7).contains(&size) {

@@ -167,8 +167,8 @@ fn clusters(text: &Text) -> Vec<Cluster> {
     clusters
 }
 
-/// Whether a character that is missing in all fonts is left out, because it is invisible and has no width. These
-/// characters join or separate other characters, or set their direction or variant.
+/// Whether a character is skipped if no font has a glyph for it. Such characters are invisible and have no width. They
+/// join or separate other characters, or set the direction or the variant of other characters.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
@@ -189,9 +189,9 @@ impl Typeface {
         Self { face, positions }
     }
 
-    /// Returns the embedded font and the glyph that draw the character `c` in a text with the font `font`. If `font`
-    /// does not have the character and is not a formula font, all embedded fonts are tried in order. If no font with
-    /// the character is found, returns `font` and the glyph 0.
+    /// Returns the glyph for the character `c` in a text with the font `font`, and the embedded font that contains the
+    /// glyph. If `font` does not have the character and is not a formula font, all embedded fonts are tried in order.
+    /// If no font with the character is found, returns `font` and the glyph 0.
     fn find(font: Font, c: char) -> (&'static Self, GlyphId) {
         let (first, fallbacks) = match font {
             Font::Plain => (0, &FACES[..]),

@@ -42,7 +42,7 @@ pub fn pixel_size(svg: &Svg, scale: f64) -> Result<(u32, u32), PictureError> {
 }
 
 /// Returns how many bytes [`pixels`] needs at most for the pixels of an image of this size. Each pixel needs four bytes
-/// in the image, and four bytes in the layer into which the document is drawn first.
+/// in the image, and four bytes in a temporary image, into which the document is drawn first.
 pub fn bytes_needed(width: u32, height: u32) -> u64 {
     u64::from(width) * u64::from(height) * 8
 }

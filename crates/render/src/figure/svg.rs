@@ -95,8 +95,8 @@ pub struct Run {
     pub size: f64,
     /// The distance above the baseline, as a fraction of the size of the text.
     pub raise: f64,
-    /// The gap after the previous run, as a fraction of the size of the text. If negative, the run overlaps the
-    /// previous run.
+    /// The gap after the previous run, as a fraction of the size of the text. A negative gap means that the run
+    /// overlaps the previous run.
     pub skip: f64,
 }
 
@@ -122,7 +122,8 @@ impl Run {
         }
     }
 
-    /// Creates a superscript of digits above the previous run, which is a subscript of `n_subscript` digits.
+    /// Creates a superscript of digits above the previous run. The previous run must be a subscript of `n_subscript`
+    /// digits.
     pub fn superscript(text: impl Into<String>, n_subscript: usize) -> Self {
         // The width of a digit is half the font size. The font size of subscripts and superscripts is 0.7 times the
         // size of the text.
@@ -197,7 +198,7 @@ impl Text {
 /// degree 2 and 3, and `Z` closes the subpath.
 pub type Command = (char, Vec<DVec2>);
 
-/// An element of a document. All numbers are already rounded to the three decimals that are written.
+/// An element of a document. All numbers are already rounded to three decimals, as in the SVG text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Element {
     Shape(Shape, Paint),
@@ -267,7 +268,7 @@ impl Svg {
         self.elements.push(element);
     }
 
-    /// Adds a group with this id, which contains the elements that `draw` adds.
+    /// Adds a group with this id. The group contains the elements that `draw` adds.
     pub fn group(&mut self, id: &str, draw: impl FnOnce(&mut Self)) {
         self.elements.push(Element::Open(id.to_owned()));
         draw(self);
@@ -434,7 +435,7 @@ fn all_rounded(points: &[DVec2]) -> Vec<DVec2> {
     points.iter().copied().map(rounded).collect()
 }
 
-/// Escapes a text for XML, with each character made [printable].
+/// Escapes a text for XML, after replacing some characters (see [`printable`]).
 pub(crate) fn escaped(text: &str) -> String {
     let text: String = text.chars().map(printable).collect();
     let text = text.replace('&', "&amp;").replace('<', "&lt;");

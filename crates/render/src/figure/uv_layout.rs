@@ -30,8 +30,8 @@ pub enum UvFill {
     Stretch,
 }
 
-/// [`UvFill::Stretch`] shows this aspect, and any larger aspect, in the last color of the color map. See
-/// [`geometry::uv::Stretch`].
+/// [`UvFill::Stretch`] shows this aspect (ratio of the axes of an ellipse), and any larger aspect, in the last color of
+/// the color map. See [`geometry::uv::Stretch`].
 pub const MAX_ASPECT: f64 = 1.5;
 
 const WHITE: Color = [255; 4];

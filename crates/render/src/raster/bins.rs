@@ -26,7 +26,7 @@ const MIN_CHUNK: usize = 1 << 15;
 const MAX_LISTED_TILES: usize = 64;
 /// If a chunk has n items, its lists have at most `ENTRIES_PER_ITEM` * n + `EXTRA_ENTRIES` entries in total.
 const ENTRIES_PER_ITEM: usize = 8;
-/// The constant part of the maximum number of entries; see `ENTRIES_PER_ITEM`.
+/// The constant in the formula for the maximum number of entries; see `ENTRIES_PER_ITEM`.
 const EXTRA_ENTRIES: usize = 4096;
 /// This bit is set in each list entry for a clipped triangle.
 const CLIPPED: u32 = 1 << 31;
@@ -47,8 +47,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the maximum number of tiles that an item can touch if it is put in the list of each of these tiles. To bound
-/// the size of these lists, an item that touches more tiles is put in the list that all tiles read.
+/// Returns a number n. An item that touches at most n tiles is put in the list of each of these tiles. To bound the
+/// size of these lists, an item that touches more than n tiles is put in the list that all tiles read.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {

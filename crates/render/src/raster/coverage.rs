@@ -1,6 +1,6 @@
 //! Selects the samples of a pixel that a transparent triangle covers. The number of these samples is proportional to
-//! alpha. Different surfaces usually cover different samples first, so that several transparent surfaces can be visible
-//! in the same pixel.
+//! alpha. The sample that is covered first differs for most surfaces, so that several transparent surfaces can be
+//! visible in the same pixel.
 
 use glam::DVec2;
 

@@ -3,7 +3,7 @@
 //!
 //! To decide whether a line is visible at a sample, the depth of the line is compared with the depth of the surface.
 //! Both depths are taken at the point of the line's axis that is nearest to the sample. The depth of the surface at
-//! this point is the depth of the plane of the triangle that is visible at the sample. Therefore a thick line on a
+//! this point is computed from the plane of the triangle that is visible at the sample. Therefore a thick line on a
 //! slanted surface is visible in its full width, although one side of the line is behind the surface.
 //!
 //! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface.
@@ -24,8 +24,9 @@ const RING: f64 = 0.35;
 /// The minimum width of the ring of a hidden point, in pixels.
 const MIN_RING: f64 = 1.2;
 
-/// The maximum width of a line, as a fraction of its spacing. At this maximum, the edges of equilateral triangles cover
-/// about half of the surface. The covered fraction is 2 √3 w if edges have length 1 and width w.
+/// The maximum width of a line, as a fraction of the distance to neighboring lines. At this maximum, the edges of
+/// equilateral triangles cover about half of the surface. The covered fraction is 2 √3 w if edges have length 1 and
+/// width w.
 const MAX_RELATIVE_WIDTH: f64 = 0.15;
 
 /// A line, projected to the picture.

@@ -47,8 +47,8 @@ const TILE: u32 = 32;
 pub struct Rendered {
     /// The pixels.
     pub image: Image,
-    /// The positions of the labels of the drawing, in the order of the labels. The position is `None` if the label is
-    /// behind the camera or outside of the picture.
+    /// The position of each label of the drawing. The order is that of the labels in the drawing. The position is
+    /// `None` if the label is behind the camera or outside of the picture.
     pub labels: Vec<Option<PlacedLabel>>,
 }
 
@@ -88,7 +88,8 @@ impl Frame {
 
 /// Returns the memory that [`render`] needs for the pixels of a picture of this size, in bytes.
 pub fn pixel_bytes(size: [u32; 2]) -> u64 {
-    // Sizes that are too large are refused later. The sides are limited here so that the computation does not overflow.
+    // Sizes that are too large are refused later. Here, width and height are clamped so that the computation does not
+    // overflow.
     let [width, height] = size.map(|side| u64::from(side.min(1 << 20)));
     let threads = rayon::current_num_threads() as u64;
     // While a thread waits for other threads, it starts more rows of tiles. Therefore one thread can hold several rows
@@ -100,7 +101,7 @@ pub fn pixel_bytes(size: [u32; 2]) -> u64 {
 /// Returns an upper bound of the memory that [`render`] needs for a picture with this view and size, in bytes. The
 /// memory of the drawing itself is not included.
 pub fn bytes_needed(drawing: &Drawing, view: &View, size: [u32; 2], look: &Look) -> u64 {
-    // The sides are limited, as in `pixel_bytes`, so that the computation does not overflow.
+    // Width and height are clamped, as in `pixel_bytes`, so that the computation does not overflow.
     let [width, height] = size.map(|side| side.min(1 << 20));
     let frame = Frame::new([width, height]);
     let threads = rayon::current_num_threads() as u64;

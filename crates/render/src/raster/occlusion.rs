@@ -224,7 +224,7 @@ fn step(texels: f32) -> i32 {
     step
 }
 
-/// Draws a triangle into all texels of a depth map whose middles the triangle covers.
+/// Draws a triangle into a depth map: into each texel whose middle lies in the triangle.
 fn draw_triangle(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [MapPoint; 3]) {
     let range = |i: usize| {
         let [p, q, r] = [a, b, c].map(|corner| corner.at[i]);

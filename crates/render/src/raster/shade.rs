@@ -48,7 +48,7 @@ struct OpennessSample {
     openness: f32,
 }
 
-/// Results for the last point, which can be reused for the next point.
+/// Results for the last point. They can be reused for the next point.
 #[derive(Default)]
 pub(super) struct ShadingCache {
     /// The triangle that was shaded last, and its data.
@@ -151,7 +151,7 @@ impl<'a> Shader<'a> {
         })
     }
 
-    /// Returns the index of the part of a triangle, and the index of the triangle in the part.
+    /// Returns the index of the part that contains a triangle, and the index of the triangle within this part.
     pub(super) fn locate(&self, id: u32) -> (usize, usize) {
         let part = self.firsts.partition_point(|first| first[0] <= id) - 1;
         (part, (id - self.firsts[part][0]) as usize)

@@ -58,7 +58,7 @@ fn covered(image: &Image) -> f64 {
     alphas.sum::<f64>() / 255.0
 }
 
-/// Checks that a sphere of about `2 n²` triangles covers its disc without cracks.
+/// Checks that a sphere of about `2 n²` triangles is drawn as a disc without cracks.
 fn check_dense_sphere(n: u32, size: [u32; 2]) {
     let mut ball = shapes::fans(&shapes::uv_sphere(2 * n, n / 2));
     for p in ball.positions_mut() {
@@ -117,7 +117,7 @@ fn the_largest_picture_is_drawn_to_its_borders() {
     check_half_picture([16_384, 16_384]);
 }
 
-/// Returns the mean difference of the channels of two images.
+/// Returns the mean difference between corresponding channel values of two images.
 fn difference(a: &Image, b: &Image) -> f64 {
     let (a, b) = (a.pixels.as_flattened(), b.pixels.as_flattened());
     let each = a.iter().zip(b).map(|(a, b)| f64::from(a.abs_diff(*b)));

@@ -74,7 +74,7 @@ fn not_fails_if_the_inner_expectation_cannot_be_checked() {
         check(&cube(), "Not(Not(Same(as: Object(\"sphere\"))))"),
         Err("no object is named \"sphere\"".to_owned())
     );
-    // The edge does not exist, so the selection is refused and violates the inner expectation.
+    // The edge does not exist, so the selection is refused and the inner expectation does not hold.
     assert_eq!(
         check(&cube(), "Not(Count(of: Edges(Between(0, 7)), eq: 1))"),
         Ok(())

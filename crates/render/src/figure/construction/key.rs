@@ -1,4 +1,4 @@
-//! Draws the legend below a figure, which explains its lines and points.
+//! Draws the legend below a figure. The legend explains the lines and points of the figure.
 
 use glam::DVec2;
 
@@ -8,7 +8,7 @@ use crate::figure::svg::{Font, Paint, Svg, Text};
 
 /// An entry of the legend.
 pub(super) struct Entry {
-    /// The paint of the symbol, which is a line. `None` if the symbol is a dot.
+    /// The paint of the symbol if it is a line. `None` if the symbol is a dot.
     symbol: Option<Paint>,
     text: Text,
     /// The distance of the symbol from the left of the figure, in pixels.

@@ -9,7 +9,8 @@ pub(crate) struct LabelPlacement {
     pub(crate) segments: Vec<[DVec2; 2]>,
     /// The points of the figure, and their radii.
     pub(crate) discs: Vec<(DVec2, f64)>,
-    /// The labels that are already placed. Each entry is the middle of a label, and half of its width and height.
+    /// The labels that are already placed. Each entry has two vectors: the middle of a label, and half of the label's
+    /// width and height.
     pub(crate) boxes: Vec<[DVec2; 2]>,
     /// Two opposite corners of the visible area.
     pub(crate) area: [DVec2; 2],

@@ -34,7 +34,8 @@ use crate::PictureError;
 /// The maximum number of control points of a curve in a figure.
 pub const MAX_DRAWN: usize = 256;
 
-/// The maximum number of control points of a curve that is drawn together with its levels.
+/// The maximum number of control points of a curve whose levels (the steps of de Casteljau's construction) are also
+/// drawn.
 pub const MAX_CONSTRUCTED: usize = 64;
 
 /// The maximum number of panels of a figure.

@@ -18,8 +18,8 @@ pub(super) const FONT_SIZE: f64 = 19.0;
 /// the last control point have names.
 const MAX_NAMED: usize = 12;
 
-/// The points of the levels have names only if the degree of the curve is at most this number. In small panels, the
-/// points of the levels never have names.
+/// The points of the levels (the steps of de Casteljau's construction) are named only if the degree of the curve is at
+/// most this number. In small panels, these points are never named.
 const MAX_DEGREE: usize = 3;
 
 /// Writes names, and records which points have names.
@@ -80,7 +80,7 @@ pub(super) fn draw(
     }
 }
 
-/// Returns the lines and points of the figure, which names should not hide.
+/// Returns the lines and points of the figure. Names should not hide them.
 fn obstacles(
     curve: &Curve<DVec2>,
     levels: &[Vec<DVec2>],

@@ -1,4 +1,4 @@
-//! Converts a Bezier curve of any degree to an SVG path, which supports degrees 1, 2 and 3.
+//! Converts a Bezier curve of any degree to an SVG path. SVG paths support only the degrees 1, 2 and 3.
 
 use bezier::Curve;
 use glam::DVec2;
@@ -16,8 +16,9 @@ const MAX_HALVINGS: u32 = 10;
 /// For a curve c of degree 3 or less, the path is the curve itself. Otherwise, the path consists of cubic pieces. Each
 /// piece starts and ends at points of the curve and has the tangents of the curve there. The piece from the parameter t
 /// to t + h has the inner control points c(t) + c'(t) h / 3 and c(t + h) - c'(t + h) h / 3 (Hermite interpolation;
-/// Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §7.5). A parameter interval is halved until its piece is
-/// near the curve at one quarter, one half and three quarters of the interval.
+/// Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §7.5). An interval of the parameter is halved until its
+/// piece is near the curve. This is tested at three points: at one quarter, one half and three quarters of the
+/// interval.
 pub(super) fn trace(curve: &Curve<DVec2>) -> Vec<Command> {
     let points = curve.points();
     let mut path = vec![('M', points[..1].to_vec())];

@@ -7,9 +7,9 @@
 //!
 //! [`read`] turns text into operations of a [`Registry`](op::Registry), and reports all errors at once. [`read`] also
 //! checks each value against the schema of its type (module [`schema_check`]), and then deserializes the value.
-//! [`check`] plans all steps without computing geometry, forecasts the element counts and the memory, and checks files
-//! and names. If the meshes certainly take more memory than the budget, [`check`] reports an error. [`run`] runs the
-//! steps. Outputs are written only if every step succeeds and every expectation holds.
+//! [`check`] predicts the results of all steps without computing geometry: the element counts and the memory. [`check`]
+//! also checks files and names. If the meshes certainly take more memory than the budget, [`check`] reports an error.
+//! [`run`] runs the steps. Outputs are written only if every step succeeds and every expectation holds.
 
 pub mod capsule;
 pub mod compare;

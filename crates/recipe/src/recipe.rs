@@ -62,7 +62,7 @@ pub struct Parameter {
     pub origin: Origin,
 }
 
-/// Where the value of a parameter comes from. If several origins set a value, the origin that comes last in this
+/// Where the value of a parameter comes from. If a value is set in several ways, the way that comes last in this
 /// enumeration takes precedence.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Origin {
@@ -190,9 +190,9 @@ impl RecipeStep {
             .map(|on| on.iter().map(|(name, _)| name.clone()).collect())
     }
 
-    /// Returns the step after adding the repetition number `turn` to its label. The number belongs to a `Repeat` that
-    /// contains the step. If several `Repeat`s contain the step, this function must be called for the innermost
-    /// `Repeat` first.
+    /// Adds the repetition number `turn` to the label of the step, and returns the step. `turn` counts the repetitions
+    /// of a `Repeat` that contains the step. If several `Repeat`s contain the step, this function must be called for
+    /// the innermost `Repeat` first.
     pub(crate) fn in_turn(mut self, turn: u32) -> Self {
         self.turns.insert(0, turn);
         let turns: Vec<String> = self.turns.iter().map(u32::to_string).collect();

@@ -125,7 +125,7 @@ fn unmet_in_text<'o>(
 
 /// Finds an expectation in the syntax tree of the recipe. `turns` has one entry for each repetition of the step: the
 /// failure of the expectation, or `None` if the expectation holds. Returns the expectation and the edits that record
-/// the actual value, or the reason why the expectation cannot be fixed.
+/// the actual value, or the reason why the expectation cannot be updated.
 fn find_fix<'t>(
     tree: &'t Value,
     recipe: &Recipe,
@@ -292,8 +292,8 @@ fn not_from_parameter(value: &Value) -> Result<(), String> {
 }
 
 /// Formats a number as RON. `written` is the text of the number that is replaced, and determines the style. A whole
-/// number has a decimal point only if `written` has one or has an exponent. The digits are grouped if `written` has
-/// digit groups.
+/// number is written with a decimal point only if `written` has a decimal point or an exponent. The digits are grouped
+/// if `written` has digit groups.
 fn float_like(x: f64, written: &str) -> Result<String, String> {
     if !x.is_finite() {
         return Err(format!("{x} cannot be recorded"));

@@ -43,12 +43,13 @@ impl Palette {
         }
     }
 
-    /// Returns the colors of the entries. The transparent entry is black.
+    /// Returns the colors of the palette's entries. The transparent entry of the palette is black.
     pub fn colors(&self) -> &[[u8; 3]] {
         &self.colors
     }
 
-    /// Returns the index of the entry for pixels that are less than half opaque, if the images have such pixels.
+    /// Returns the index of the palette entry for pixels that are less than half opaque, if the images have such
+    /// pixels.
     pub fn transparent(&self) -> Option<u8> {
         self.transparent
     }

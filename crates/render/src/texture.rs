@@ -231,8 +231,9 @@ impl Texture {
         coverage
     }
 
-    /// Returns the footprint of a pixel of the picture. Values are interpolated between the two mipmap levels whose
-    /// pixels are closest in size to the pixel of the picture (Williams, "Pyramidal Parametrics", 1983).
+    /// Returns the footprint of a pixel of the picture: where and at which mipmap levels the texture is read. Values
+    /// are interpolated between the two mipmap levels whose pixels are closest in size to the pixel of the picture
+    /// (Williams, "Pyramidal Parametrics", 1983).
     fn footprint(&self, uv: DVec2, steps: [DVec2; 2]) -> Footprint {
         let [width, height] = self.size().map(f64::from);
         let size = DVec2::new(width, height);
@@ -307,8 +308,8 @@ fn unit(byte: u8) -> f32 {
 
 impl Level {
     /// Returns a level with half the width and half the height of this level, rounded up. Each new pixel is the
-    /// weighted mean of four pixels of this level. `weight` converts the alpha of a pixel to its weight. Returns `None`
-    /// if this level is a single pixel.
+    /// weighted mean of four pixels of this level. `weight` converts the alpha of a pixel to the weight of the pixel.
+    /// Returns `None` if this level is a single pixel.
     fn half(&self, weight: impl Fn(u8) -> f32) -> Option<Self> {
         if self.width * self.height == 1 {
             return None;

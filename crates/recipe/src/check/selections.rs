@@ -19,8 +19,8 @@ enum Named<'v> {
     Object(&'v str),
 }
 
-/// Checks the elements, materials and objects that the selections of a step name. Reports an element or a material if
-/// one of the meshes of the step certainly does not have it. Reports an object if it does not exist.
+/// Checks the elements, materials and objects that are named in the selections of a step. Reports an element or a
+/// material if one of the meshes of the step certainly does not have it. Reports an object if it does not exist.
 pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
     // If the recipe expects the operation to refuse its input, a missing element can be the expected reason. Therefore
     // no error is reported.
@@ -77,7 +77,7 @@ impl Named<'_> {
     }
 }
 
-/// Collects the elements, materials and objects that the selections in a value name, with their spans.
+/// Collects the elements, materials and objects that are named in the selections inside a value, each with its span.
 fn collect<'v>(value: &'v Value, named: &mut Vec<(Named<'v>, Span)>) {
     if let ValueKind::Call(call) = &value.kind {
         match &*call.name.text {

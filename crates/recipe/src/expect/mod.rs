@@ -284,9 +284,9 @@ pub enum Expectation {
         #[serde(default = "yes")]
         connectivity: bool,
     },
-    /// The two-sided Hausdorff distance between the surfaces of the mesh and of another mesh. The Hausdorff distance is
-    /// the largest distance from a point of either surface to the other surface. Fails unless the distance is proven to
-    /// be below the limit `below`.
+    /// The two-sided Hausdorff distance between the surface of the mesh and the surface of another mesh. The Hausdorff
+    /// distance is the largest distance from a point of either surface to the other surface. Fails unless the distance
+    /// is proven to be below the limit `below`.
     DistanceTo {
         /// The mesh to compare with.
         other: OtherMesh,
@@ -351,8 +351,8 @@ pub enum Expectation {
     Attribute {
         /// The name of the attribute.
         name: String,
-        /// Which elements. If omitted, all elements of the kind that has the attribute. If several kinds have an
-        /// attribute of this name, the first of these kinds is used: vertices, faces, corners, edges.
+        /// Which elements. If omitted, all elements of the kind that has the attribute are checked. If several kinds
+        /// have an attribute of this name, the first of these kinds is used: vertices, faces, corners, edges.
         of: Option<Elements>,
         /// The index of the component of a vector, starting at 0. Required for vectors.
         #[schemars(range(max = 3))]

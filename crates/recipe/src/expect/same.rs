@@ -116,9 +116,9 @@ fn middle(part: &Range<usize>) -> usize {
 /// The free vertices of a k-d tree: the vertices that are not matched yet.
 struct FreeVertices {
     is_free: Vec<bool>,
-    /// Each vertex of the tree splits a part of the tree. For each vertex, this list has the bounding box of the free
-    /// vertices in this part. With these boxes, a search can skip the parts that have no free vertices. Without these
-    /// boxes, each search would visit the vertices that are already matched.
+    /// Each vertex of the tree splits a part of the tree. For each vertex, this list has the bounding box of all free
+    /// vertices in the part that the vertex splits. With these boxes, a search can skip the parts that have no free
+    /// vertices. Without these boxes, each search would visit the vertices that are already matched.
     boxes: Vec<[DVec3; 2]>,
 }
 

@@ -272,9 +272,9 @@ impl Reader<'_, '_> {
     }
 }
 
-/// If a recipe is missing, returns a text that suggests recipes in its folder. The text names the recipes with similar
-/// file names or, if no name is similar, all recipes in the folder. The text is empty if the folder contains no
-/// recipes, or if the recipe exists but cannot be read.
+/// If a called recipe does not exist, returns a text that suggests other recipes in the same folder. The text names the
+/// recipes with similar file names or, if no name is similar, all recipes in the folder. The text is empty if the
+/// folder contains no recipes, or if the recipe exists but cannot be read.
 fn similar_files(store: &dyn Store, path: &Path) -> String {
     let folder = path.parent().filter(|_| !store.exists(path));
     let siblings = folder.and_then(|folder| store.list(folder).ok());

@@ -176,7 +176,7 @@ struct Reader<'s, 'a> {
     source: Source,
     /// The index of the scope.
     scope: usize,
-    /// The text with which the label of each step begins, if this reader reads the step.
+    /// Every label of a step that this reader reads begins with this text.
     prefix: String,
     on_loss: OnLoss,
     diagnostics: Vec<Diagnostic>,

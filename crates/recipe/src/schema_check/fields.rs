@@ -150,9 +150,9 @@ impl Schema<'_> {
     }
 }
 
-/// Returns the help text for a value that is not a struct, although its schema requires one, but looks like the value
-/// of a field of this struct. The help text names the first field that accepts the value. If no field accepts it, the
-/// text names the first field. Required fields come first.
+/// Returns the help text for a value that looks like a single field of the struct that the schema requires. The help
+/// text names the first field that accepts the value. If no field accepts it, the text names the first field. Required
+/// fields come first.
 fn with_field_name(value: &Value, schema: &Schema) -> Option<String> {
     let inner = value.single().unwrap_or(value);
     let accepts = |field: &&str| {

@@ -122,7 +122,7 @@ impl Rename {
 struct Place<'n> {
     /// The name of the innermost field or variant around the value.
     name: Option<&'n str>,
-    /// Whether the value is inside the value of this field or variant, and not its whole value.
+    /// Whether the value is nested inside the value of the field or variant. Otherwise, the two values are the same.
     inside: bool,
 }
 

@@ -144,7 +144,7 @@ impl Checked {
         own.into_iter().chain(self.renames).collect()
     }
 
-    /// Returns the value after adding all names of variants that were omitted.
+    /// Returns the value with all omitted names of variants added.
     pub(crate) fn in_full<'v>(&self, value: &'v Value) -> Cow<'v, Value> {
         if self.shorts.is_empty() {
             return Cow::Borrowed(value);
@@ -155,7 +155,7 @@ impl Checked {
     }
 }
 
-/// Adds the names of variants that were omitted inside `value`.
+/// Adds the omitted names of variants inside `value`.
 fn complete(value: &mut Value, shorts: &[Short]) {
     // If several nested values have the same span, the name belongs to the outermost one, because that value was
     // checked against the schema.

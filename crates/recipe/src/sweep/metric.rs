@@ -37,7 +37,8 @@ pub enum Metric {
     Volume,
     /// The smallest corner angle of all faces, in degrees.
     MinAngle,
-    /// The two-sided Hausdorff distance between the surfaces of the mesh and of another mesh, in scene units.
+    /// The two-sided Hausdorff distance between the surface of the mesh and the surface of another mesh, in scene
+    /// units.
     DistanceTo {
         /// The mesh to compare with.
         other: OtherMesh,

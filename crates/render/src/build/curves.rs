@@ -64,8 +64,8 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Adds the edges of a tessellated surface. Must be called before the faces of the surface are added, because this
-    /// function assumes that the indices of the faces start at `n_faces`.
+    /// Adds the edges of a tessellated surface. This function must be called before the faces of the surface are added.
+    /// It assumes that the indices of these faces start at `n_faces`.
     fn grid(&mut self, surface: &Tessellation, lines: &Lines) {
         let mut edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
         for (f, corners) in (self.n_faces..).zip(surface.faces()) {
@@ -214,7 +214,7 @@ mod tests {
         let n = CELLS as usize;
         assert_eq!(drawing.lines.len(), 2 * n * (n + 1));
         assert_eq!(drawing.n_triangles(), 2 * n * n);
-        // Both ends of each line must be corners of the faces that the line lists as its neighbors.
+        // Both ends of a line must be corners of each face that the line names as a neighbor.
         for line in &drawing.lines {
             let part = &drawing.parts[0];
             for face in line.faces.into_iter().filter(|&f| f != NO_FACE) {

@@ -22,8 +22,8 @@ pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
     })
 }
 
-/// Returns the sum of the area vectors of the faces around each vertex, by index. The method is from Gouraud,
-/// "Continuous Shading of Curved Surfaces", 1971, but weights faces by area.
+/// For each vertex index, returns the sum of the area vectors of the faces around the vertex. The method is from
+/// Gouraud, "Continuous Shading of Curved Surfaces", 1971, but weights faces by area.
 fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
     map_indices(mesh.positions().len(), |i| {
         let v = VertexId::new(i);

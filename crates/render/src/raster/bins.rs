@@ -1,7 +1,7 @@
 //! Assigns triangles and lines to tiles of the picture: to all tiles that their bounding boxes touch.
 //!
 //! The triangles and lines are called items. The items are divided into chunks. For each chunk, one task makes a list
-//! of items for each tile, with a counting sort. A tile reads its lists chunk by chunk. The size of the lists is
+//! of items for each tile, with a counting sort. The lists of a tile are read chunk by chunk. The size of the lists is
 //! bounded, because items that touch many tiles are in one list that all tiles read.
 
 use std::ops::Range;

@@ -2,7 +2,7 @@
 //!
 //! Depth maps are drawn from directions that are spread evenly over the sphere. Each depth map stores the nearest and
 //! the farthest depth, so it serves two opposite directions. The openness of a point is the weighted mean of its
-//! visibility in all depth maps. The openness does not depend on the camera and has no noise. Surfaces with an alpha
+//! visibility in all depth maps. This number does not depend on the camera and has no noise. Surfaces with an alpha
 //! below one half, or with a texture that is not opaque, do not reduce the openness.
 
 use std::borrow::Cow;

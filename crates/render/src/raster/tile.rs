@@ -52,7 +52,7 @@ pub(super) struct Tile {
     /// For each pixel, a number at each of its samples. The number is 0 if no line covers the sample. If the line with
     /// index i covers the sample, the number is 2 i + 2 for a visible line, and 2 i + 3 for a hidden line.
     pub(super) lines: Vec<[u32; SAMPLES]>,
-    /// The planes of triangles that were used last.
+    /// A cache of the triangle planes that were used last.
     pub(super) planes: Planes,
 }
 

@@ -11,7 +11,7 @@ pub(super) struct Frame {
     center: DVec2,
     /// Half the length of the longer side of the bounding box, in units of the curve.
     half: f64,
-    /// The length of `half` in pixels.
+    /// The same length as `half`, but in pixels.
     pixels: f64,
     /// The height of the drawing in pixels.
     height: f64,
@@ -26,7 +26,8 @@ const MAX_HEIGHT: f64 = 0.85;
 const MIN_HEIGHT: f64 = 0.2;
 
 impl Frame {
-    /// Creates the frame of a drawing that shows two states of a curve and is `inner` pixels wide.
+    /// Creates the frame for a drawing with a width of `inner` pixels. The drawing shows a curve and possibly its
+    /// earlier state.
     pub(super) fn new(curve: &Curve<DVec2>, before: Option<&Curve<DVec2>>, inner: f64) -> Self {
         let before = before.map_or(&[][..], Curve::points);
         let points = curve.points().iter().chain(before);
@@ -58,7 +59,8 @@ impl Frame {
         self.height
     }
 
-    /// Returns the frame moved to the middle of an area of the figure. The area is given by two opposite corners.
+    /// Returns this frame, but with its center moved to the middle of an area of the figure. The area is given by two
+    /// opposite corners.
     pub(super) fn placed(&self, [corner, end]: [DVec2; 2]) -> Self {
         Self {
             position: (corner + end) / 2.0,

@@ -24,7 +24,7 @@ const GAP: f64 = 19.0;
 /// The height of a line of entries, in pixels.
 const LINE: f64 = 24.0;
 
-/// Returns the entries in lines, with each line centered in `width` pixels.
+/// Arranges the entries in lines, and centers each line in a width of `width` pixels.
 pub(super) fn entries(panels: &[Panel], width: f64) -> Vec<Vec<Entry>> {
     // For each line of the legend: its entries, and its width.
     let mut lines: Vec<(Vec<Entry>, f64)> = Vec::new();

@@ -96,7 +96,7 @@ const TEXT: Color = [0x1f, 0x29, 0x37, 255];
 const WHITE: Color = [255; 4];
 
 /// The colors of the levels between the control polygon and the point. Color-blind people can distinguish these colors
-/// (Okabe and Ito, "Color universal design", 2008). From the sixth level on, the colors repeat.
+/// (Okabe and Ito, "Color universal design", 2008). After the fifth level, the colors repeat.
 const LEVELS: [Color; 5] = [
     [0x00, 0x72, 0xb2, 255],
     [0x00, 0x9e, 0x73, 255],

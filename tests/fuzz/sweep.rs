@@ -1,4 +1,4 @@
-//! Reads arbitrary strings as sweeps, and computes the cells of the sweep.
+//! Reads arbitrary strings as sweeps, and computes the parameter values of each run of the sweep.
 
 #![no_main]
 

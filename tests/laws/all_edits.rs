@@ -10,8 +10,8 @@ use crate::fixtures;
 /// The number of edits in a sequence.
 const EDITS: usize = 1000;
 
-/// The maximum number of edges for edits that add elements. Meshes with more edges get only edits that do not add
-/// elements. The limit counts edges instead of faces, because even a few faces can have many corners.
+/// Edits that add elements are applied only to meshes with at most this number of edges. Larger meshes get only edits
+/// that do not add elements. The limit counts edges instead of faces, because even a few faces can have many corners.
 const MAX_EDGES: usize = 250;
 
 /// Returns the small test meshes, with and without attributes.

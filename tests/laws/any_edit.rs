@@ -21,7 +21,7 @@ pub(crate) struct EditCode {
     pub(crate) a: u16,
     /// Determines the second element.
     pub(crate) b: u16,
-    /// A small integer for positions and fractions.
+    /// A small integer, from which positions and fractions are computed.
     pub(crate) place: i8,
 }
 
@@ -42,7 +42,8 @@ impl EditCode {
     }
 }
 
-/// The highest kind of an edit that changes single elements. Edits of higher kinds change or measure the whole surface.
+/// The number of the last kind of edit that changes single elements. Kinds with higher numbers change or measure the
+/// whole surface.
 pub(crate) const LAST_LOCAL: u8 = 26;
 
 const SPLIT: u8 = 1;
@@ -128,8 +129,8 @@ pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
     }
 }
 
-/// Applies an edit that changes or measures the whole surface of a dense mesh. Algorithms for triangles change nothing
-/// if a face is not a triangle.
+/// Applies an edit that changes or measures the whole surface of a mesh. The ids of the mesh must have no gaps.
+/// Algorithms for triangles change nothing if a face is not a triangle.
 fn change_surface(mesh: &mut Mesh, code: EditCode) {
     let EditCode { kind, a, b, place } = code;
     let vertices: Vec<VertexId> = mesh.vertices().collect();
@@ -233,7 +234,8 @@ fn change_surface(mesh: &mut Mesh, code: EditCode) {
     }
 }
 
-/// Applies an edit of kind 33 or higher to a dense mesh. These edits change or measure the whole surface.
+/// Applies an edit whose `kind` is 33 or more to a mesh without gaps in its ids. These edits change or measure the
+/// whole surface.
 fn change_surface_further(mesh: &mut Mesh, code: EditCode) {
     let EditCode { kind, a, b, place } = code;
     let t = f64::from(place) / 4.0;

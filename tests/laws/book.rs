@@ -95,7 +95,8 @@ fn every_recipe_of_the_book_runs() {
     assert_none(&failures);
 }
 
-/// Returns the code in the first column of the tables of a chapter, each with the heading above it.
+/// Returns the code examples in the first column of the tables of a chapter. Each example comes with the heading above
+/// its table.
 fn examples(chapter: &str) -> Vec<(String, String)> {
     let path = root().join("book/src").join(chapter);
     let text = fs::read_to_string(path).expect("the chapter exists");

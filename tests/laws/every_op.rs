@@ -230,7 +230,7 @@ fn planning_never_panics_even_for_incomplete_plans() {
     assert_none(&failures);
 }
 
-/// Returns the plan of an existing scene. All counts in this plan are exact.
+/// Returns a plan (a prediction of element counts) that describes an existing scene. All counts in this plan are exact.
 pub(crate) fn exact_plan(scene: &Scene) -> Plan {
     let exactly = |n: usize| Range::exactly(n as u64);
     let planned = |object: &Object| match &object.geometry {

@@ -63,8 +63,8 @@ fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec
     texts
 }
 
-/// Returns several scenes: one with an object of each kind, one with a cube of triangles, and three with a very large
-/// or very small copy of this cube.
+/// Returns five scenes. One has an object of each kind, and one has a cube of triangles. Three have a very large or
+/// very small copy of this cube.
 fn scenes() -> Vec<(&'static str, Scene)> {
     let find = |wanted: &str| {
         let mut all = fixtures::scenes().into_iter();

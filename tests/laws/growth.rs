@@ -14,9 +14,9 @@
 //! become so large that the system provides new memory for each run.
 //!
 //! Each measured time is the median of the processor times of several runs on one thread, so that other programs hardly
-//! affect it. The time on a mesh is compared with the time on a mesh that is four times as large (doubled twice). If
-//! the time grows too much, the same two meshes are measured again. If it still grows too much, two meshes that are
-//! four times as large are compared, because the time jumps once when the data no longer fit in a cache.
+//! affect it. Each test compares the times on two meshes. The second mesh is four times as large as the first (doubled
+//! twice). If the time grows too much, the same two meshes are measured again. If it still grows too much, the test
+//! compares two larger meshes, because the time jumps once when the data no longer fit in a cache.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -43,7 +43,7 @@ const MAX_GROWTH: f64 = 2.3 * 2.3;
 /// The minimum time of a measurement. Meshes are enlarged until the work takes this long.
 const LONG_ENOUGH: Duration = Duration::from_millis(4);
 
-/// The maximum time for the smaller of the first two compared meshes. If the work takes longer, the test fails.
+/// The maximum time of the work on the first mesh that is measured. If the work takes longer, the test fails.
 const TOO_LONG: Duration = Duration::from_secs(20);
 
 /// Two numbers of faces. The first measured mesh has the first number of faces. It is enlarged to at most the second
@@ -60,7 +60,7 @@ const STEEPER: &[(&str, f64)] = &[
     // The collapses merge all vertices of a row into one vertex, whose valence is the length of a row. So the time for
     // n faces is proportional to n^1.5.
     ("CollapseEdges(", 8.5),
-    // After the flips, all edges of a row end at one vertex, so the time is also proportional to n^1.5.
+    // After the flips, all edges of a row of faces end at one vertex. So this time is also proportional to n^1.5.
     ("FlipEdges(edges: All, on_refusal", 8.5),
     // The factorization of the sparse matrix of a surface takes a time proportional to n^1.5. Source: Lipton, Rose,
     // Tarjan, "Generalized Nested Dissection", 1979.
@@ -72,7 +72,7 @@ const STEEPER: &[(&str, f64)] = &[
     ("FillHoles(", 8.5),
 ];
 
-/// Steps whose selections visit more than the neighborhood of single elements.
+/// Steps whose selections examine a larger part of the mesh than the neighborhoods of single elements.
 const SELECTIONS: &[&str] = &[
     "TagVertices(name: \"new\", vertices: Grow(Grow(Random(count: 1000, seed: 1))))",
     "TagVertices(name: \"new\", vertices: Nearest(to: (0, 0, 0), count: 1000))",
@@ -216,7 +216,7 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
         return Growth::TooLong;
     }
     if first < LONG_ENOUGH {
-        // The time is short even for the largest mesh, so it hardly depends on the size of the mesh.
+        // Even on the largest mesh, the work takes almost no time. So the time hardly depends on the size of the mesh.
         return Growth::By(1.0);
     }
     let growth = |small: &Scene, large: &Scene| {
@@ -291,9 +291,8 @@ fn time_to_check(text: &str) -> Duration {
     times.min().expect("three times")
 }
 
-/// The test would notice a quadratic search among 8000 parts, because the search would take most of the time. The test
-/// fails only if a recipe with four times as many parts takes more than 8 times as long, so that it does not fail on a
-/// busy machine.
+/// The test would notice a quadratic search among 8000 parts, because the search would take most of the time. A recipe
+/// with four times as many parts may take up to 8 times as long, so that the test also passes on a busy machine.
 #[test]
 fn reading_and_checking_a_recipe_is_not_quadratic() {
     let failures = on_one_thread(|| {

@@ -34,7 +34,7 @@ fn edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// Two meshes with attributes, and all fixtures that are small enough to be cloned for each edit.
+/// Two meshes with attributes, and all test meshes that are small enough to be cloned for each edit.
 static MESHES: LazyLock<Vec<Mesh>> = LazyLock::new(|| {
     let mut meshes: Vec<Mesh> = fixtures::meshes()
         .into_iter()
@@ -412,12 +412,13 @@ impl Polygons {
         Err(EditError::Vanishes(e))
     }
 
-    /// Whether this polygon list is a manifold with the same topology as `before`, and has no more coinciding elements
-    /// than `before`. Compared to `before`, one vertex, `vanished` faces and `vanished` + 1 edges must be missing.
+    /// Whether this polygon list is a manifold with the same topology as `before`, and does not have a larger number of
+    /// coinciding elements. The list must have one vertex, `vanished` faces and `vanished` + 1 edges less than
+    /// `before`.
     fn has_topology_of(&self, before: &Self, vanished: usize) -> bool {
         let [mine, other] = [self, before].map(|polygons| {
-            // The three counts are: corners of a face at the same vertex, edges with the same face on both sides, and
-            // pairs of opposite faces.
+            // The numbers of three kinds of coinciding elements: corners of a face at the same vertex, edges with the
+            // same face on both sides, and pairs of opposite faces.
             let mut coincident = [0; 3];
             for face in &polygons.faces {
                 let mut once = face.clone();
@@ -486,7 +487,7 @@ impl Polygons {
             let after = sides(face).cycle().skip(1);
             let corners = sides(face).zip(after).filter(|&((_, at), _)| at == v);
             for ((before, _), (_, after)) in corners {
-                // The two edges of this corner at v are identified by their other ends.
+                // This corner has two edges at v. Each edge is identified by its other end.
                 let mut fan = vec![before, after];
                 fans.retain(|other| {
                     let is_joined = other.iter().any(|w| fan.contains(w));
@@ -506,7 +507,7 @@ fn v_count(positions: &[DVec3]) -> u32 {
     u32::try_from(positions.len()).expect("a small mesh")
 }
 
-/// Returns the sides of a polygon. A side is a corner and the next corner.
+/// Returns the sides of a polygon: each corner, paired with the corner after it.
 fn sides(face: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
     let next = face.iter().cycle().skip(1);
     face.iter().copied().zip(next.copied())

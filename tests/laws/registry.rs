@@ -10,7 +10,8 @@ fn list(folder: PathBuf) -> impl Iterator<Item = PathBuf> {
     entries.map(|entry| entry.expect("the folder can be listed").path())
 }
 
-/// Returns the files of all groups that implement an operation, each with the name that the operation must have.
+/// Returns the source files of all operations in the groups. The key of each file is the name that its operation must
+/// have.
 fn files() -> BTreeMap<String, PathBuf> {
     list(crate::root().join("ops"))
         .flat_map(|group| list(group.join("src")))

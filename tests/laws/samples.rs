@@ -6,7 +6,8 @@ use op::{Entry, Registry};
 const MORE_STEPS: &[&str] = &[
     r#"Load(path: "curve.bzc", name: "new")"#,
     r#"Load(path: "bunny.obj", non_manifold: Refuse)"#,
-    // Polygons with a point without a face, and with a bow-tie vertex, which `Polygons` splits.
+    // These polygons have a point without a face, and a vertex at which two faces touch without a common edge.
+    // `Polygons` splits this vertex.
     r#"Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (-1, 0, 0),
         (-1, -1, 0)], faces: [[0, 1, 2], [0, 4, 5]])"#,
     r#"Polygons(name: "new", points: [(0, 0, 0)], faces: [[0, 1, 2]])"#,

@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use crate::samples::samples;
 use crate::{assert_none, recipes};
 
-/// Calls `visit` with this schema and each JSON value inside it, and the path of the value.
+/// Calls `visit` for this schema and for each JSON value inside it. `visit` also receives the path of the value.
 fn walk<'s>(schema: &'s Json, path: &str, visit: &mut impl FnMut(&'s Json, &str)) {
     visit(schema, path);
     match schema {

@@ -3,11 +3,11 @@
 //
 //     g++ -std=c++17 -O2 bench.cpp -losdCPU -o bench && ./bench
 //
-// Each output line after the first has the median, minimum and maximum time of five runs after one warm-up run, in
-// seconds, and the peak resident memory. Each line is measured in a separate process, so that its peak memory does not
-// include other runs. "create" is the time to build the connectivity of the coarse mesh. "refine" is the time to build
-// the connectivity of all levels. "positions" is the time to compute the positions of all levels, each in a newly
-// allocated vector.
+// Each output line after the first describes five runs, which follow one warm-up run: their median, minimum and maximum
+// time in seconds, and the peak resident memory. Each line is measured in a separate process, so that its peak memory
+// does not include other runs. "create" is the time to build the connectivity of the coarse mesh. "refine" is the time
+// to build the connectivity of all levels. "positions" is the time to compute the positions of all levels, each in a
+// newly allocated vector.
 
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -70,7 +70,8 @@ Cage icosahedron() {
     return cage;
 }
 
-/// Returns a torus of m by n quads. One of every `every` quads is cut into two triangles.
+/// Returns a torus of m by n quads. Some quads are cut into two triangles: with `every` = 3, for example, each third
+/// quad.
 Cage torus(int m, int n, int every) {
     double const turn = 6.283185307179586;
     Cage cage;
@@ -170,8 +171,8 @@ void run(char const* name, Cage const& cage, Sdc::SchemeType scheme, int levels,
 
 int main() {
     std::printf("OpenSubdiv, one thread; full: all connectivity of the last level, last: only the vertices of its faces\n");
-    // "last" stores the vertices of the finest faces, as a viewer needs them. "full" stores all connectivity of the
-    // finest level, as an editable mesh needs it.
+    // "last" stores only the vertices of each face of the last level, as a viewer needs them. "full" stores all
+    // connectivity of the last level, as an editable mesh needs it.
     for (bool full : {false, true}) {
         run("loop, icosahedron, 9 levels", icosahedron(), Sdc::SCHEME_LOOP, 9, full);
         run("loop, 100352 triangles, 3 levels", torus(224, 224, 1), Sdc::SCHEME_LOOP, 3, full);

@@ -188,8 +188,8 @@ void print(Value<N> const& value) {
     }
 }
 
-/// Prints the positive sharpness of inner edges and of vertices. Vertices that are corners by the boundary rule are
-/// left out.
+/// Prints the sharpness of inner edges and of vertices, if it is above 0. Vertices that are corners by the boundary
+/// rule are left out.
 void print_sharpness(Case const& in, Far::TopologyLevel const& level) {
     bool const corners =
         in.options.GetVtxBoundaryInterpolation() == Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;

@@ -9,8 +9,9 @@ from pathlib import Path
 import meshlib.mrmeshpy as meshlib
 import numpy
 
-# The part is a flange in millimetres. Its profile (distance from the axis, height) is turned around the axis: a bore, a
-# flange with eight bolt holes, a fillet to a hub, a thin wall of 1 mm on the hub, and a groove in the rim.
+# The part, in millimetres, has a bore, a flange with eight bolt holes, a fillet to a hub, a thin wall of 1 mm on the
+# hub, and a groove in the rim. A profile is turned around the axis. Each point of the profile has two numbers: the
+# distance from the axis, and the height.
 HOLES, HOLE_RADIUS, HOLE_CENTER = 8, 5.0, 45.0
 INNER, OUTER = 36.0, 54.0  # The ring of the flange with the holes.
 LOW, HIGH = 0.0, 10.0
@@ -40,7 +41,8 @@ def profile():
 
 
 def part():
-    """Returns the quadrilaterals of the part. Each has four positions, so common corners occur several times."""
+    """Returns the quadrilaterals of the part. Each quadrilateral has four positions of its own, so common corners occur
+    several times."""
     quads = []
 
     def sheet(rows):
@@ -58,8 +60,8 @@ def part():
     for hole in range(HOLES):
         first = hole * CELL
         angles = 2 * numpy.pi * ((first + numpy.arange(CELL + 1)) % AROUND) / AROUND
-        # The border of the part of the ring around one hole, counter-clockwise from the inner corner at the first
-        # angle.
+        # Each hole is in one sector of the ring. This is the border of the sector, counter-clockwise from its inner
+        # corner at the first angle.
         border = [(r, angles[0]) for r in radii[:-1]] + [(OUTER, a) for a in angles[:-1]]
         border += [(r, angles[-1]) for r in radii[:0:-1]] + [(INNER, a) for a in angles[:0:-1]]
         border = numpy.array([(r * numpy.cos(a), r * numpy.sin(a)) for r, a in border])

@@ -54,7 +54,8 @@ def by_trimesh(source, target, clock):
 
 
 def quality(small, original):
-    """Describes the distances of the simplified mesh to the original, and the mean of its smallest angles."""
+    """Describes the distances from the simplified mesh to the original, and the mean of the smallest angles of the
+    simplified faces."""
     scene = mw.Scene().with_object(small, name="small").with_object(original, name="original")
     far = scene.measure(of=choice.Distance(to="original"), name="far", on="small")["small"].attributes["far"]
     angles = small.measure(of="MinAngle", name="angle").attributes["angle"]

@@ -46,7 +46,7 @@ def by_xatlas(source):
     atlas = xatlas.Atlas()
     atlas.add_mesh(positions.astype(numpy.float32), corners[:, :, 0].astype(numpy.uint32))
     options = xatlas.PackOptions()
-    # The distance between charts of Meshwright is twice its padding.
+    # In Meshwright, the distance between two charts is twice the value of `padding`.
     options.resolution, options.padding = PAGE, 2 * PADDING
     start = time.perf_counter()
     atlas.generate(xatlas.ChartOptions(), options)
@@ -58,7 +58,7 @@ def by_xatlas(source):
 
 
 def n_charts(uvs):
-    """Counts the sets of triangles that are connected by equal texture coordinates."""
+    """Returns the number of charts, which are sets of triangles that are connected in the texture."""
     _, points = numpy.unique(uvs.reshape(-1, 2), axis=0, return_inverse=True)
     points = points.reshape(-1, 3)
     parent = list(range(points.max() + 1))
@@ -75,9 +75,10 @@ def n_charts(uvs):
 
 
 def measure(positions, uvs):
-    """Returns five numbers: the number of charts, the covered part of the page, the aspect (an upper limit for 95 % of
-    the area), the ratio of the largest to the smallest area scale, and the fraction of mirrored triangles. The ratio
-    leaves out the largest and the smallest scales, on 2.5 % of the area each."""
+    """Returns five numbers: the number of charts, the covered part of the page, the aspect, the ratio of the area
+    scales, and the fraction of mirrored triangles. The aspect is an upper limit that holds for 95 % of the area. The
+    ratio is the largest divided by the smallest area scale; it leaves out the 2.5 % of the area with the largest scales
+    and the 2.5 % with the smallest scales."""
     a, b = positions[:, 1] - positions[:, 0], positions[:, 2] - positions[:, 0]
     length = numpy.linalg.norm(a, axis=1)
     area = numpy.linalg.norm(numpy.cross(a, b), axis=1) / 2

@@ -46,8 +46,8 @@ pub(crate) fn warning(problem: &str) -> String {
     format!("warning: {problem}; the program continues without the cache\n")
 }
 
-/// Returns the version of the program and the digest of its executable file. The cache uses a result only if the same
-/// version and the same executable file computed it. A different build can contain a changed operation.
+/// Returns the version of the program and the digest of its executable file. A stored result is used only if it was
+/// computed by the same version and the same executable file. A different build can contain a changed operation.
 fn program() -> String {
     let version = env!("CARGO_PKG_VERSION");
     let file = std::env::current_exe().and_then(std::fs::read);

@@ -149,7 +149,7 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
     }
 }
 
-/// Returns the exit code of a failure. After Ctrl-C, this is 130, as shells expect. Otherwise, this is `code`.
+/// Returns the exit code of a failure: 130 after Ctrl-C, as shells expect, and otherwise `code`.
 fn failure(code: u8) -> u8 {
     if is_interrupted() { 130 } else { code }
 }

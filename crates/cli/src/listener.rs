@@ -8,8 +8,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. A run that shows no progress,
-/// such as a run of a batch, takes this flag as its progress listener.
+/// The flag that Ctrl-C sets. Every loop that can run for a long time checks this flag. The flag is also the progress
+/// listener of runs whose progress is not shown, such as the runs of a batch.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
 /// Installs the handler of Ctrl-C: the first Ctrl-C cancels the run cleanly, and the second Ctrl-C ends the program
@@ -82,8 +82,8 @@ impl Progress for Terminal<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
         if !self.bar.is_hidden() {
             let step = lock(&self.step);
-            // The bar gets the step and its task as a single message. Otherwise, it could show a step with the task of
-            // another step.
+            // The bar gets the step and its task as a single message. Two separate messages could show a step with the
+            // task of another step.
             let message = match step.as_str() {
                 "" => what.to_owned(),
                 step => format!("{step}: {what}"),

@@ -50,7 +50,7 @@ pub(crate) fn run_all<T: Send>(
     Ok(results)
 }
 
-/// Converts the end of a job to a result.
+/// Converts a `JobEnd`, which says how a job ended, to a result.
 pub(crate) fn job_result<T>(end: JobEnd<T>) -> JobResult<T> {
     match end {
         JobEnd::Done(result) => Ok(result),

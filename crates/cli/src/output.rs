@@ -105,8 +105,8 @@ fn summary(step: &RecipeStep, done: &StepDone) -> String {
     parts.join(", ")
 }
 
-/// Returns the reports of the steps, one item on each line: refused edits, losses (data that a step did not keep),
-/// repairs made while a file was read, and notes.
+/// Returns the reports of the steps, with one item on each line. The items are refused edits, losses (data that a step
+/// did not keep), repairs of input files, and notes.
 pub(crate) fn step_notes(steps: &[StepDone]) -> String {
     let mut text = String::new();
     for step in steps {

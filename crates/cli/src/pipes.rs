@@ -103,7 +103,7 @@ pub(crate) fn read_mesh(name: &Path, options: &ReadOptions) -> anyhow::Result<me
 ///
 /// # Errors
 ///
-/// Returns the errors of the stream. Also returns an error if the stream has more than `most` bytes.
+/// Returns an error if reading the stream fails, or if the stream has more than `most` bytes.
 fn read_up_to(stream: impl Read, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     stream.take(most + 1).read_to_end(&mut bytes)?;

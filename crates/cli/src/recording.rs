@@ -24,7 +24,8 @@ struct Recorded {
 }
 
 impl RecordingDisk {
-    /// Whether a file was read or looked for. The folder of `real` must be canonical.
+    /// Whether a path was recorded, because a file was read or looked for at this path. The folder of `real` must be
+    /// canonical.
     pub(crate) fn has_recorded(&self, real: &Path) -> bool {
         lock(&self.0).real.contains(real)
     }

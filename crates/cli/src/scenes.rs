@@ -22,7 +22,7 @@ pub(crate) struct SceneAtStep {
     pub(crate) stream: String,
 }
 
-/// Whether the extension of a file is the extension of recipes.
+/// Whether a file has the extension `.ron`, like recipes.
 pub(crate) fn is_recipe(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "ron")
 }

@@ -13,8 +13,9 @@ use crate::mesh_views::{Mesh, number};
 
 /// Builds a mesh from three arrays. The first array has the positions (`float64`, three numbers for each vertex). The
 /// second has the index of the first corner of each face, followed by the number of all corners (`uint32`). The third
-/// has the vertex of each corner (`uint32`). Returns four values: the mesh, a description of each repair, the index of
-/// the input position of each vertex, and the index of the input polygon of each face.
+/// has the vertex of each corner (`uint32`). Returns four values: the mesh, a description of each repair, and two
+/// arrays of indices. The arrays have the index of the input position for each vertex, and the index of the input
+/// polygon for each face.
 #[pyfunction]
 pub(crate) fn from_arrays(
     py: Python<'_>,

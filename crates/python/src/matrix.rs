@@ -10,8 +10,8 @@ use crate::interrupt::run;
 use crate::mesh_views::Mesh;
 
 /// Returns the cotangent Laplacian in compressed row storage, and the areas of the vertices. The result is four arrays.
-/// The first has the index of the first entry of each row, followed by the number of entries. The others have the
-/// columns of the entries, the values of the entries, and the areas.
+/// The first has the index of the first entry of each matrix row, and the number of all entries as the last element.
+/// The second has the column of each entry, the third the value of each entry, and the fourth the area of each vertex.
 #[pyfunction]
 pub(crate) fn laplacian(py: Python<'_>, mesh: &Mesh) -> PyResult<(Array, Array, Array, Array)> {
     let (starts, columns, values, areas) = run(py, None, |progress| {
@@ -39,8 +39,9 @@ pub(crate) fn laplacian(py: Python<'_>, mesh: &Mesh) -> PyResult<(Array, Array, 
 }
 
 /// Returns the matrix that maps positions to refined positions, in compressed row storage. The first value of the
-/// result is an array with the index of the first entry of each row, followed by the number of entries. The other
-/// values are the columns of the entries, the values of the entries, and the number of columns of the matrix.
+/// result is an array with the index of the first entry of each matrix row, and the number of all entries as the last
+/// element. The second is an array with the column of each entry, the third an array with the value of each entry, and
+/// the fourth the number of columns of the matrix.
 #[pyfunction]
 pub(crate) fn subdivision(
     py: Python<'_>,

@@ -91,7 +91,7 @@ impl Recipe {
         self.0.recipe.expectations.len()
     }
 
-    /// Returns an upper bound of the memory that all meshes together take after any step, in bytes. Returns `None` if
+    /// Returns an upper bound, in bytes, of the memory that all meshes together take after any step. Returns `None` if
     /// there is no bound.
     fn peak_bytes(&self) -> Option<u64> {
         let peaks = self.0.forecast.steps.iter().map(|step| step.bytes.max);

@@ -183,8 +183,8 @@ impl Scene {
         Self(self.0.only(|name| names.iter().any(|n| n == name)))
     }
 
-    /// Whether `only` gives the same graph as a Delete step that deletes all other objects. The graphs differ if the
-    /// scene has nodes, such as cameras and lights, that `only` leaves out and Delete keeps.
+    /// Whether `only` gives the same graph of nodes as a Delete step that deletes all other objects. The graphs differ
+    /// if `only` leaves out nodes that Delete keeps, such as cameras and lights.
     fn only_is_delete(&self, names: Vec<String>) -> bool {
         let mut deleted = self.0.clone();
         for object in self.0.objects() {
@@ -222,7 +222,8 @@ impl Scene {
         Ok(Self(scene))
     }
 
-    /// Returns a copy of the scene without nodes. The nodes of each object are applied to the points of the object.
+    /// Returns a copy of the scene without nodes. The transforms of the nodes that place an object are applied to the
+    /// points of this object.
     fn placed(&self) -> Self {
         Self(self.0.placed().into_owned())
     }

@@ -61,7 +61,8 @@ def test_the_examples_of_the_methods_are_those_of_the_operations() -> None:
         assert f"``scene.{call}``" in " ".join(inspect.getdoc(getattr(mw.Scene, generate.snake(name))).split())
         recipe = eval(f"recipe.{call}", {"recipe": mw.recipe(), "sel": mw.sel, "choice": mw.choice})
         step = recipe.to_ron().split("steps: [\n", 1)[1].rsplit(",\n    ],", 1)[0].strip()
-        # The tokens are sorted, because the step has its parameters in the order of the method, not of the example.
+        # The tokens are sorted before the comparison, because the two texts can list the parameters in different
+        # orders.
         assert sorted(TOKEN.findall(generate.in_python(step))) == sorted(TOKEN.findall(call)), step
 
 

@@ -1,4 +1,4 @@
-"""The plugin of pytest."""
+"""The pytest plugin of the package."""
 
 import re
 import subprocess

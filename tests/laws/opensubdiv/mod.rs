@@ -51,7 +51,7 @@ fn cycle(mut corners: Vec<(VertexId, Option<DVec2>)>) -> (Vec<VertexId>, Vec<Opt
     corners.into_iter().unzip()
 }
 
-/// Describes the differences between the faces of `mesh` and the expected faces, and between their uvs.
+/// Describes how the faces of `mesh` and their uvs differ from the expected faces and uvs.
 fn faces_differ(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<String> {
     let uvs = expected.uvs();
     let expected_values: BTreeMap<_, _> = expected
@@ -176,10 +176,10 @@ fn compared(mesh: &Mesh, expected: &Lines, tolerance: f64) -> Vec<String> {
     failures
 }
 
-/// Describes the differences between the limit surface at the vertices of a refined mesh and the expected limit
-/// surface. Compares only values for which OpenSubdiv uses exact limit masks. The positions of all vertices except
-/// darts are compared. Normals are compared at smooth vertices, at corners with one face, and at boundary creases with
-/// at most 2 quads (Catmull-Clark) or 3 triangles (Loop).
+/// Describes how the limit surface at the vertices of a refined mesh differs from the expected limit surface. Compares
+/// only values for which OpenSubdiv uses exact limit masks. The positions of all vertices except darts are compared.
+/// Normals are compared at smooth vertices, at corners with one face, and at boundary creases with at most 2 quads
+/// (Catmull-Clark) or 3 triangles (Loop).
 fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) -> Vec<String> {
     let partners =
         matched(mesh, &expected.positions(), tolerance).expect("the meshes were compared before");
@@ -287,8 +287,8 @@ fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
     // rule keeps corners, and puts new vertices at the midpoints of edges.
     let [corner, far] = [[7.0 / 9.0; 3], [0.0, 0.875, 0.875]];
     assert_positions("known_sharp_cube", &[(near, 6), (corner, 8), (far, 12)]);
-    // In the new position of a boundary vertex that is not a corner, the vertex itself has the weight 3/4, and each of
-    // its two neighbors on the boundary has the weight 1/8.
+    // For a boundary vertex that is not a corner, the new position is a weighted sum: the vertex itself has the weight
+    // 3/4, and its two neighbors on the boundary have the weight 1/8.
     let [corner, far] = [[0.0, 0.75, 0.75], [0.0, 0.0, 1.0]];
     assert_positions("known_square", &[([0.0; 3], 1), (corner, 4), (far, 4)]);
     // The uvs of the square are the positions of its corners, and the rule `CornersOnly` keeps these uvs.

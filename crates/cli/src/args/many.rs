@@ -52,7 +52,7 @@ pub(crate) struct TestArgs {
     /// Test only recipes whose path contains TEXT
     #[arg(long, value_name = "TEXT")]
     pub(crate) filter: Option<String>,
-    /// Keep the outputs of each recipe, in a folder below DIR that is named after the recipe
+    /// Keep the outputs of each recipe. Each recipe has its own folder below DIR, named after the recipe
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Also write the results as JUnit XML
@@ -204,8 +204,8 @@ pub(crate) struct SweepArgs {
     /// Also write the table to a file
     #[arg(long, value_name = "FILE.csv|.json")]
     pub(crate) out: Option<PathBuf>,
-    /// Keep the outputs of each cell (a run with one combination of values). The outputs of a cell are in a folder
-    /// below DIR that is named after the number of the cell
+    /// Keep the outputs of each cell (a run with one combination of values). Each cell has its own folder below DIR,
+    /// named after the number of the cell
     #[arg(long, value_name = "DIR")]
     pub(crate) keep_outputs: Option<PathBuf>,
     #[command(flatten)]

@@ -22,8 +22,8 @@ pub(crate) struct DrawArgs {
     /// Use a camera without perspective
     #[arg(long)]
     pub(crate) orthographic: bool,
-    /// Draw the z axis upwards. By default, the z axis points up only if the model stands on the plane z = 0 and does
-    /// not stand on the plane y = 0. Otherwise, the y axis points up
+    /// Draw the z axis upwards. By default, the z axis points up if the model stands on the plane z = 0 but not on the
+    /// plane y = 0. Otherwise, the y axis points up
     #[arg(long)]
     pub(crate) z_up: bool,
     /// Shading: Flat, Smooth, Phong, Matcap or Plain

@@ -21,8 +21,8 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     let path = &pipes::mesh_name(&args.file, args.from.as_deref(), "stdin", "--from")?;
     let (scene, notes) = read_file_or_input(&args.file, path, &args.read.options())?;
     let pictures = args.picture_errors.of(path, BUDGET);
-    // The reader's notes have locations in object space. Therefore, the objects are drawn without the transforms of the
-    // scene's nodes.
+    // The locations in the reader's notes use the coordinates of the objects. Therefore, the objects are drawn without
+    // the transforms of the scene's nodes.
     let mut unplaced = Scene::new();
     unplaced.append(scene.objects().to_vec(), Graph::default())?;
     for note in &notes {
@@ -77,7 +77,7 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// The area, the volume and the bounds of all instances of a mesh together, in the space of the scene.
+/// Measures of all instances of a mesh together, in scene space: the area, the volume and the bounds.
 struct Placed {
     n: usize,
     area: f64,

@@ -270,7 +270,7 @@ pub(crate) fn draw_scenes(
     Ok(images)
 }
 
-/// Draws several files on one sheet. The cell of a file that cannot be drawn stays empty.
+/// Draws several files on one sheet. The place of a file that cannot be drawn stays empty.
 fn on_sheet(
     args: &PictureArgs,
     picture: &Picture,

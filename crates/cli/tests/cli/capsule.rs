@@ -1,4 +1,4 @@
-//! Failure capsules, and `shrink`.
+//! Capsules (small recipes that reproduce a failure), and the command `shrink`.
 
 use crate::folder::Folder;
 

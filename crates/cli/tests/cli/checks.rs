@@ -48,7 +48,7 @@ fn numbers_of_elements_that_do_not_exist() {
         "Cube(), Picture(path: \"a.png\", highlight: Faces([6]))",
         &["face 6 does not exist"],
     );
-    // If several meshes lack the face 6, the error message is about the first of these meshes. `on:` chooses the meshes
+    // If several meshes have no face 6, the error message is about the first of these meshes. `on:` chooses the meshes
     // that are checked.
     let two = "Cube(), Torus(name: \"t\")";
     refuses(

@@ -138,7 +138,7 @@ fn changes_by_reading_are_data_in_json() {
     assert_eq!(change["code"], "edges-split");
     assert_eq!(change["count"], 1);
     assert_eq!(change["edges"], serde_json::json!([[0, 1]]));
-    // In the output for people, the list after the table shows the same change.
+    // Without `--format json`, the list after the table describes the same change.
     let text = change["text"].as_str().unwrap();
     folder.run("run recipe.ron").prints(&[text]);
 }

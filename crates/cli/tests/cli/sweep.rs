@@ -32,7 +32,7 @@ fn json(ended: &Ended) -> Json {
     ended.json()
 }
 
-/// Returns the values of one measure, one for each cell.
+/// Returns the values of one measure, one value for each run of the sweep.
 fn measure(table: &Json, name: &str) -> Vec<Json> {
     let cells = table["cells"].as_array().unwrap();
     cells
@@ -50,7 +50,7 @@ fn the_table_has_a_row_for_each_cell_and_the_last_parameter_changes_fastest() {
     let table = json(&ended);
     assert_eq!(table["parameters"], json!(["levels", "around"]));
     assert_eq!(measure(&table, "Faces"), [96, 192, 48, 384, 768, 192]);
-    // V - E + F of a torus is 0, in every cell.
+    // In every run of the sweep, V - E + F of the torus is 0.
     for name in ["EulerCharacteristic", "BoundaryLoops"] {
         assert_eq!(measure(&table, name), [0; 6]);
     }
@@ -89,7 +89,7 @@ fn measures_are_those_of_a_run() {
     assert_eq!(measure(&table, "Digest")[1], run.digest());
     let facts = folder.run("info out/torus.obj --format json").json();
     assert_eq!(measure(&table, "Area")[1], facts["objects"][0]["area"]);
-    // `DistanceTo` compares each cell with the output of the first cell. Therefore, only the second cell has a distance
+    // `DistanceTo` compares each result with the output of the first run. Therefore, only the second run has a distance
     // greater than 0.
     let distances = measure(&table, "DistanceTo(other: File(\"kept/1/torus.obj\"))");
     assert!(distances[0].as_f64().unwrap() < 1e-12, "{distances:?}");

@@ -1,4 +1,4 @@
-//! `sweep --sheet`: the final scenes of the cells of a sweep in one image.
+//! `sweep --sheet`: the final scenes of all runs of a sweep in one image.
 
 use crate::folder::{Ended, Folder};
 use crate::pixels::{Pixels, pixels};
@@ -18,15 +18,15 @@ fn folder(fields: &str) -> Folder {
     Folder::with_recipe(RECIPE).with("a.sweep.ron", sweep)
 }
 
-/// Draws a sheet with cells of 90 x 40 pixels.
+/// Draws a sheet on which each scene has 90 x 40 pixels.
 fn sheet(folder: &Folder, more: &str) -> Ended {
     folder.run(&format!(
         "sweep a.sweep.ron --sheet s.png --size 90x40 {more}"
     ))
 }
 
-/// Returns the pixels of the cell in column `i` and row `j` of a sheet. A cell has 90 x 40 pixels. A row is `row`
-/// pixels high, including the caption. The grid of cells starts at the pixel `start`.
+/// Returns the pixels of the scene in column `i` and row `j` of a sheet. A scene has 90 x 40 pixels. A row is `row`
+/// pixels high, including the caption. The grid of scenes starts at the pixel `start`.
 fn cell(sheet: &Pixels, start: [u32; 2], row: u32, [i, j]: [u32; 2]) -> Pixels {
     let (left, top) = (start[0] + 12 + i * 102, start[1] + 12 + j * (row + 12));
     sheet.part([left, top], [90, 40])
@@ -69,7 +69,7 @@ fn two_parameters_label_rows_and_columns() {
     sheet(&folder, "").with_code(0);
     let made = pixels(&folder, "s.png");
     // The labels of the columns are values of the last parameter, `around`. The labels of the rows are values of the
-    // first parameter, `minor`. Below each cell are its measured values, which `keep` lists.
+    // first parameter, `minor`. Below each scene are the measured values that `keep` lists.
     let [width, height] = made.size;
     let beside = width - (12 + 3 * 102);
     assert!((40..=102).contains(&beside), "{beside}");
@@ -84,7 +84,7 @@ fn two_parameters_label_rows_and_columns() {
             assert!(drawn(&cell(&made, start, 68, [i, j])) > 100, "{i} {j}");
         }
     }
-    // Cells in the same column have the same number of faces. Therefore, they have the same caption.
+    // Scenes in the same column have the same number of faces. Therefore, they have the same caption.
     let caption = |i: u32, j: u32| made.part([beside + 12 + i * 102, 40 + 40 + j * 80], [90, 28]);
     assert_eq!(caption(0, 0), caption(0, 1));
     assert_ne!(caption(0, 0), caption(1, 0));
@@ -132,7 +132,8 @@ fn colors_mean_the_same_in_all_cells_and_are_explained_once() {
     assert!(height > 150);
     let made = pixels(&folder, "s.png");
     assert!(drawn(&made.part([plain, 0], [colored - plain, height])) > 1000);
-    // The torus in the second cell has larger faces. Only these faces are yellow, the color of the largest area.
+    // The torus in the second scene has larger faces. Only these faces are yellow, because yellow stands for the
+    // largest area.
     let colors = |i: u32| {
         let cell = cell(&made, [0, 0], 68, [i, 0]);
         move |is: fn([u8; 3]) -> bool| cell.count(is)
@@ -172,7 +173,7 @@ fn a_cell_that_fails_shows_its_error() {
     );
     assert_eq!(good.count(is_red), 0);
     assert!(failed.count(is_red) > 50);
-    // The failed cell contains only red text.
+    // The image of the failed run contains only red text.
     assert_eq!(failed.count(|[r, g, _]| r < 180 && g < 180), 0);
 }
 

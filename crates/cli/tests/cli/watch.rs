@@ -39,7 +39,8 @@ impl Watching {
         Self { child, lines }
     }
 
-    /// Waits for a line with this text. Returns the lines since the last call, up to and including this line.
+    /// Waits for a line with this text. Returns the lines that were printed since the last call, and the line with the
+    /// text as the last.
     #[track_caller]
     fn wait_for(&self, text: &str) -> Vec<String> {
         let mut lines = Vec::new();

@@ -50,8 +50,8 @@ def kept(values: Any) -> NDArray[Any] | None:
 
 def one_for_each_vertex(values: NDArray[Any], mesh: Mesh) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.int64]]:
     """Converts values of the corners of triangles to values of vertices. If the corners of a vertex have k different
-    values, the vertex gets k - 1 copies. Returns the values, the triangles, and for each copy the vertex that was
-    copied."""
+    values, the vertex gets k - 1 copies. Returns three arrays: the values of the vertices, the triangles, and for each
+    copy the index of the original vertex."""
     corners = mesh.corners.astype(np.int64)
     of_vertex = np.zeros((mesh.n_vertices, values.shape[1]))
     of_vertex[corners] = values
@@ -151,8 +151,8 @@ class MeshConversions:
 
     @classmethod
     def from_trimesh(cls, other: Any, *, name: str = "mesh") -> Self:
-        """Makes a mesh from a `trimesh.Trimesh`, with its attributes of vertices and faces, its texture coordinates,
-        and the colors of its vertices or faces as the attribute "color"."""
+        """Converts a `trimesh.Trimesh` to a mesh. Attributes of vertices and faces and texture coordinates are kept.
+        The colors of vertices or faces become the attribute "color"."""
         of = {"vertex": dict(other.vertex_attributes), "face": dict(other.face_attributes)}
         visual = other.visual
         if visual.kind in of:

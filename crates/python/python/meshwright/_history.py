@@ -26,7 +26,7 @@ class History:
 
     @property
     def is_empty(self) -> bool:
-        """Whether the history is empty: it has neither steps nor a reason."""
+        """Whether the history is empty: it has no steps, and no reason why a recipe cannot repeat them."""
         return self._earlier is None and not self._reason
 
     def then(self, step: str) -> History:

@@ -543,13 +543,13 @@ class Mesh(MeshConversions, MeshOperations):
             ],
         )
 
-        Files that were written, for example by :meth:`save`, are not steps of the mesh. Add them to the recipe:
+        The recipe has no steps that write files, even if you called :meth:`save`. Add such steps to the recipe:
         ``m.recipe().save("a.glb").save_recipe("clean.ron")``. Paths of input files stay as they were given. Relative
         paths in a recipe are relative to the folder of its file, so save the recipe in the working directory.
 
         :raises ValueError: If the mesh was made from arrays, was made by an operation with another mesh as an argument,
-            or was changed by :meth:`with_attribute`, :meth:`with_vertices` or :meth:`edit`. The text names the
-            change.
+            or was changed by :meth:`with_attribute`, :meth:`with_vertices` or :meth:`edit`. The error message names
+            this cause.
         """
         return self.scene().recipe()
 
@@ -611,7 +611,8 @@ class Mesh(MeshConversions, MeshOperations):
         return type(self)(result, names[0], done.notes, done._history)
 
     def _named(self, value: Any, others: dict[int, tuple[str, Mesh]]) -> Any:
-        """Replaces each mesh in a value by a name for its object. Adds the names and the meshes to `others`."""
+        """Replaces each mesh in `value` by the name that the object of this mesh gets. Adds the names and the meshes to
+        `others`."""
         if isinstance(value, Mesh):
             name = value.name if value.name != self._name else f"{value.name} (other)"
             taken = {n for key, (n, _) in others.items() if key != id(value)}

@@ -76,8 +76,8 @@ def module_of(option: Schema) -> str:
 
 
 def word(name: str) -> str:
-    """Returns the Python name of a single word. A word changes only if it is the name of an operation, the name of a
-    variant with parameters in exactly one module, or a keyword of Python."""
+    """Returns the Python name of a single word. Only three kinds of words change: names of operations, keywords of
+    Python, and names of variants with parameters that exist in only one module."""
     if name in operations():
         return f"{snake(name)}()"
     modules = [("sel", selections()), ("choice", others()), ("expect", variants(EXPECTATIONS))]
@@ -158,7 +158,7 @@ def owner(option: Schema) -> str:
 
 @cache
 def owners() -> dict[int, str]:
-    """Maps the `id()` of the schema of each variant to the name of the type that has the variant."""
+    """Maps the schemas of variants, as their `id()`, to the names of the types that have these variants."""
     found = {}
     for name in root()["$defs"]:
         schema = definition(name)
@@ -169,7 +169,8 @@ def owners() -> dict[int, str]:
 
 @cache
 def uses() -> dict[str, list[str]]:
-    """Returns the Python calls that take a value of each type: ``smooth(by=..)`` for `SmoothBy`."""
+    """Maps the name of each type to the Python calls that take a value of this type: `SmoothBy` to
+    ``smooth(by=..)``."""
     found: dict[str, list[str]] = {}
 
     def visit(schema: Any, place: str) -> None:

@@ -13,8 +13,8 @@ Progress = Callable[[str, str, int, int], object]
 
 @contextmanager
 def callback(progress: bool | Progress | None) -> Iterator[Progress | None]:
-    """A context manager that returns the callable for progress reports: the given callable, a callable that moves a bar
-    of tqdm if `progress` is `True`, or `None`."""
+    """A context manager that returns the callable for progress reports. This is the given callable, or `None`, or a
+    callable that moves a bar of tqdm if `progress` is `True`."""
     if progress is None or progress is False:
         yield None
         return

@@ -40,8 +40,8 @@ class Step:
 class Outcome(Mapping[str, Mesh]):
     """The outcome of a run. Like a scene, it is a mapping from the names of objects to meshes.
 
-    Its attributes are `scene`; `digest`, which the program prints too; `steps`, with notes and seconds; `files`, the
-    paths of the files that were written; and `checked`, the number of expectations, which all hold.
+    Its attributes are the final `scene`, the `digest` of this scene, the `steps` with their notes and times, the paths
+    of the written `files`, and the number `checked` of expectations, which all hold.
     """
 
     def __init__(self, scene: Scene, about: dict[str, Any]) -> None:

@@ -1,5 +1,6 @@
-"""Writes Python values as the text of recipes (RON). The schema of a parameter says how its value is written: a Python
-string is written as a word such as ``Area`` if the schema lists words, and as a text in quotes otherwise."""
+"""Writes Python values as the text of recipes (RON). The schema of a parameter says how its value is written. If the
+schema lists words, a Python string is written as a word, such as ``Area``. Otherwise, a Python string is written as a
+text in quotes."""
 
 from __future__ import annotations
 

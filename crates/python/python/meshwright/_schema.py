@@ -61,7 +61,7 @@ def name_of(option: Schema) -> str | None:
 
 
 def words(schema: Schema) -> set[str]:
-    """Returns the words that a value of this schema can be. Recipes write these words without quotes."""
+    """Returns the words that this schema allows as values. Recipes write these words without quotes."""
     found: set[str] = set()
     for option in options(schema):
         if isinstance(option.get("const"), str):

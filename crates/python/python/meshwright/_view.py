@@ -76,8 +76,8 @@ def colors_of(numbers: NDArray[Any], span: tuple[float, float] | None = None) ->
 
 
 class View:
-    """An interactive view of a mesh. A notebook shows the view if it is the result of a cell, and :meth:`save` writes
-    it as an HTML page. The page contains the mesh and three.js, and needs no network."""
+    """An interactive view of a mesh. A view that is the result of a notebook cell is shown in the notebook.
+    :meth:`save` writes the view as an HTML page. The page contains the mesh and three.js, and needs no network."""
 
     def __init__(self, mesh: Mesh, shown: str | Choice | Mapping[str, Any] | None, wireframe: bool | None, height: int) -> None:
         self._height = height

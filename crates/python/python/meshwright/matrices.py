@@ -55,7 +55,7 @@ def mass(mesh: Mesh) -> Any:
 def subdivision(
     mesh: Mesh, scheme: Literal["loop", "catmull_clark", "midpoint", "butterfly", "sqrt3"] = "loop", *, levels: int = 1
 ) -> Any:
-    """Returns the matrix that maps values at the vertices of a mesh to values at the vertices of the subdivided mesh: the
+    """Returns a matrix that maps values at the vertices of a mesh to values at the vertices of the subdivided mesh. The
     refined positions are ``subdivision(mesh) @ mesh.vertices``.
 
     :param mesh: The mesh.

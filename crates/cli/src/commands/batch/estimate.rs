@@ -73,10 +73,9 @@ pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
 }
 
 /// Returns the estimated memory of a run: the peak memory of the forecast, plus the memory of a copy of the meshes. The
-/// copy is included because the old and the new meshes are both in memory during a step. For a pair of consecutive
-/// steps, the memory of the copy is the smaller of the forecasts for the two steps. The largest of these values is
-/// added to the peak memory. Each of the two terms is at most the memory budget, because meshes cannot exceed the
-/// budget.
+/// copy is included because the old and the new meshes are both in memory during a step. Between two consecutive steps,
+/// the copy counts as the smaller of the two forecasts for these steps. The largest copy is added to the peak memory.
+/// The peak memory and the copy are each limited to the memory budget, because meshes cannot exceed the budget.
 fn memory(forecast: &Forecast, budget: u64) -> u64 {
     let steps = forecast.steps.windows(2);
     let smaller = steps.map(|pair| pair[0].bytes.max.min(pair[1].bytes.max));

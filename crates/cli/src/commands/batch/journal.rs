@@ -9,9 +9,9 @@
 //! {"key": "1f2e..", "time": 1767225600000, "row": {..}}    a file is finished or has failed; see row.rs
 //! ```
 //!
-//! The field `key` is a digest of everything that the field `row` depends on: the recipe, the parameters, the path and
-//! content of every file that is read, the paths of outputs, and the version of the program. For a failure, the key
-//! also depends on the memory budget.
+//! The field `key` is a digest of everything on which the field `row` depends. These are the recipe, the parameters,
+//! the path and content of every file that is read, the paths of outputs, and the version of the program. For a
+//! failure, the key also depends on the memory budget.
 //!
 //! If a batch is divided into parts, each part writes its own journal, so that several parts can run at the same time.
 //! A batch reads the journals of all parts in its folder. Therefore the batch can be resumed with a different number of
@@ -96,9 +96,9 @@ impl Journal {
         let (mut known, mut processes) = (HashMap::new(), Vec::new());
         let others = others(&path).into_iter().map(std::fs::read);
         for (i, bytes) in std::iter::once(Ok(bytes)).chain(others).enumerate() {
-            // If the journal of another part of the batch was removed after it was listed, it counts as empty. Lines
-            // that cannot be parsed, such as lines of a different version, are ignored, so the input files of these
-            // lines are processed again.
+            // Another process can remove the journal of another part after the journals were listed. Such a journal
+            // counts as empty. Lines that cannot be parsed, such as lines of a different version, are ignored, so the
+            // input files of these lines are processed again.
             for line in bytes.unwrap_or_default().split(|&b| b == b'\n') {
                 if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
                     if is_wanted(&entry.row) {
@@ -136,8 +136,8 @@ impl Journal {
     }
 }
 
-/// Adds an entry, unless the map has a later entry about the same input file. If the map has an earlier entry about the
-/// file, or an entry with the same time, the new entry replaces it.
+/// Adds an entry to the map, unless the map has a later entry about the same input file. An entry about this file with
+/// an earlier time or the same time is replaced.
 fn insert(known: &mut HashMap<(String, usize), Entry>, entry: Entry) {
     let (input, set) = entry.row.key();
     match known.entry((input.to_owned(), set)) {

@@ -130,7 +130,7 @@ fn summary(report: &Report, kept: usize, args: &BatchArgs) -> String {
 enum Task {
     /// Keep this row from an earlier run.
     Keep(Row),
-    /// Run the recipe. The number is its estimated peak memory in bytes.
+    /// Run the recipe. The number is the estimated peak memory of this run, in bytes.
     Run(Box<Loaded>, u64),
     /// Report a failure, because the recipe cannot be run on this file.
     Fail(FileResult),
@@ -258,7 +258,7 @@ impl<'b> Chunk<'b> {
         }
     }
 
-    /// Returns the result of an input file. `end` says how the job for this file ended.
+    /// Returns the result of the run on an input file. `end` says how the job for this file ended.
     fn result(&self, i: usize, end: JobEnd<FileResult>) -> FileResult {
         many::job_result(end).unwrap_or_else(|panicked| match &self.tasks[i] {
             Task::Keep(row) => FileResult::unrecorded(row.clone()),

@@ -91,8 +91,8 @@ impl<'a> Batch<'a> {
     fn check_outputs(&self) -> anyhow::Result<()> {
         let [stem, name] = ["\u{1}", "\u{1}.\u{2}"];
         let below = |path: &PathBuf| path.strip_prefix(&self.args.out).unwrap_or(path).to_owned();
-        // Maps the number of a parameter set to its output paths. In these paths, a marker stands for the name of the
-        // input file.
+        // The output paths for each parameter set. The keys are the numbers of the sets. In these paths, a marker
+        // stands for the name of the input file.
         let mut marked: HashMap<usize, Vec<PathBuf>> = HashMap::new();
 
         let place = |path: &Path| absolute(path).unwrap_or_else(|_| path.to_path_buf());
@@ -176,7 +176,7 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Checks the recipe for an input file.
+    /// Loads and checks the recipe with the parameter values of the run on an input file.
     pub(super) fn load(&self, file: &Input) -> anyhow::Result<Loaded> {
         self.load_at(file, &self.out(file))
     }

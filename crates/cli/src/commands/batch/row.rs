@@ -1,8 +1,8 @@
 //! The rows of a batch, and its reports.
 //!
 //! `--report FILE.json` writes one JSON object. The first line of a `.jsonl` report is the same object without the
-//! field `rows`. Each further line is one row. A report with the extension `.csv` has only the rows. In a cell that is
-//! a list, the items are joined by `; `.
+//! field `rows`. Each further line is one row. A report with the extension `.csv` has only the rows. If an entry of
+//! this table is a list, the items are joined by `; `.
 //!
 //! ```text
 //! {
@@ -97,7 +97,7 @@ impl Row {
         (&self.input, self.set.unwrap_or(0))
     }
 
-    /// Returns the text for the input file and the parameter values.
+    /// Returns a text that names the input file and the parameter values.
     pub(super) fn label(&self) -> String {
         label(&self.input, &self.values)
     }

@@ -83,7 +83,7 @@ fn plain(value: &Json) -> Option<String> {
     })
 }
 
-/// Returns the text for an input file and its parameter values: `cow.obj (levels = 2)`.
+/// Returns a text that names an input file and its parameter values, such as `cow.obj (levels = 2)`.
 pub(super) fn label(path: &str, values: &BTreeMap<String, String>) -> String {
     let values: Vec<String> = values.iter().map(|(n, v)| format!("{n} = {v}")).collect();
     match (path, values.join(", ")) {

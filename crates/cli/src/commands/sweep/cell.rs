@@ -1,4 +1,4 @@
-//! The cells of a sweep. Each cell is a run with its own parameter values.
+//! The cells of a sweep. Each cell is a run of the recipe with its own parameter values.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -14,10 +14,10 @@ use crate::listener::INTERRUPT;
 use crate::loading::load_text;
 use crate::many::{JobResult, error_message, first_error, run_all};
 
-/// Checks and runs the cells of a sweep.
+/// Checks and runs the recipe for each cell of a sweep (each combination of parameter values).
 pub(super) struct Cells<'a> {
     pub(super) args: &'a SweepArgs,
-    /// The step cache. With it, a cell can use the results of equal steps in earlier cells.
+    /// The step cache. With this cache, a run can use the results of equal steps in earlier runs.
     pub(super) cache: Option<&'a Cache>,
     pub(super) engine: &'a Engine<'a>,
     /// The text of the recipe.
@@ -28,12 +28,12 @@ pub(super) struct Cells<'a> {
     pub(super) keep: &'a [(Metric, Span)],
     /// Whether the recipe's expectations are checked.
     pub(super) expects: bool,
-    /// A function that receives the scene of each cell, and the estimated peak memory of the cell's run in bytes.
-    /// `None` if no sheet is drawn.
+    /// A function that receives the final scene of each run, and the estimated peak memory of the run in bytes. `None`
+    /// if no sheet is drawn.
     pub(super) collect: Option<&'a (dyn Fn(Scene, u64) -> CellScene + Sync)>,
 }
 
-/// The loaded recipe of a cell, or an error.
+/// The recipe, loaded with the parameter values of one run of the sweep, or an error.
 pub(super) struct Task(Result<Loaded, String>);
 
 impl Task {
@@ -43,25 +43,25 @@ impl Task {
     }
 }
 
-/// The result of a cell.
+/// The result of one run of the sweep.
 #[derive(Debug, Default)]
 pub(super) struct CellResult {
-    /// The measured values that `keep` lists, if the cell succeeded.
+    /// The measured values that `keep` lists, if the run succeeded.
     pub(super) measures: Option<Vec<Measured>>,
     /// The written files, if outputs are kept.
     pub(super) outputs: Vec<PathBuf>,
     pub(super) error: Option<String>,
-    /// The scene for the sheet, if a sheet is drawn and the cell succeeded.
+    /// The final scene, if the run succeeded and a sheet (an image of all final scenes) is drawn.
     pub(super) scene: Option<CellScene>,
-    /// Whether Ctrl-C canceled the run of the cell, or prevented its start.
+    /// Whether Ctrl-C canceled this run, or prevented its start.
     pub(super) is_not_run: bool,
 }
 
-/// The scene of a cell that succeeded. It is drawn on the sheet of the sweep.
+/// The final scene of a successful run of the sweep, which is drawn on the sheet.
 #[derive(Debug)]
 pub(super) struct CellScene {
-    /// The extent of the scene, from which the camera and the colors are chosen, or the reason why the scene cannot be
-    /// drawn.
+    /// The extent of the scene, or the reason why the scene cannot be drawn. The camera and the colors are chosen from
+    /// the extents of all scenes.
     pub(super) extent: Result<Extent, String>,
     /// The scene, if there is enough memory to keep it.
     pub(super) scene: Option<Scene>,
@@ -80,7 +80,7 @@ impl CellResult {
 }
 
 impl Cells<'_> {
-    /// Checks the recipe for a range of cells.
+    /// Checks the recipe with the parameter values of each of these cells (runs of the sweep).
     pub(super) fn check(&self, cells: Range<usize>) -> anyhow::Result<Vec<Task>> {
         let ends = run_all(cells.len(), self.args.many.limits(), |i| {
             self.load(cells.start + i)
@@ -113,7 +113,8 @@ impl Cells<'_> {
         Ok(loaded)
     }
 
-    /// Runs a cell. If the cell fails, the error is its first problem. If Ctrl-C cancels the run, the error is `None`.
+    /// Runs the recipe for one cell of the sweep. If the run fails, the error is its first problem. If Ctrl-C cancels
+    /// the run, the error is `None`.
     pub(super) fn run(&self, task: &Task) -> JobResult<CellResult> {
         let loaded = task.0.as_ref().map_err(|error| Some(error.clone()))?;
         if loaded.has_errors() {
@@ -134,8 +135,8 @@ impl Cells<'_> {
         })
     }
 
-    /// Runs a cell whose recipe was checked before, and returns the outcome of the run. If the run fails, returns its
-    /// first error. If Ctrl-C cancels the run, returns `None`.
+    /// Runs a recipe that was checked before, and returns the outcome of the run. If the run fails, the error is its
+    /// first problem. If Ctrl-C cancels the run, the error is `None`.
     fn outcome(&self, loaded: &Loaded, keeps: bool) -> JobResult<Outcome> {
         let cache = self.cache.map(|cache| Caching {
             cache,
@@ -153,7 +154,7 @@ impl Cells<'_> {
         Err((!outcome.cancelled).then(|| first_error(&outcome.failures)))
     }
 
-    /// Runs a cell again and returns its scene.
+    /// Runs the recipe again for one cell of the sweep, and returns the final scene.
     pub(super) fn scene(&self, i: usize) -> Result<Scene, String> {
         let loaded = self.load(i).map_err(|error| format!("{error:#}"))?;
         let outcome = self.outcome(&loaded, false).map_err(error_message)?;

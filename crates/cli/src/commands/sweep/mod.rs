@@ -1,9 +1,9 @@
 //! `meshwright sweep`: runs one recipe with many parameter values and tabulates the results.
 //!
 //! The documentation of [`recipe::read_sweep`] describes the format of the sweep file. A cell is a run with one
-//! combination of parameter values. The table has a row for each cell. A row consists of the number of the cell, the
-//! values of the varying parameters, and the measured values that `keep` lists. If the cell has failed, the row also
-//! has its error. `--out FILE.csv` writes the table. `--out FILE.json` and `--format json` write one JSON object:
+//! combination of parameter values, and has a row in the table. The row consists of the number of the cell, the values
+//! of the varying parameters, and the measured values that `keep` lists. If the run failed, the row also has the error.
+//! `--out FILE.csv` writes the table. `--out FILE.json` and `--format json` write one JSON object:
 //!
 //! ```text
 //! {
@@ -111,7 +111,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(finish(args, &plan, &results)? && sheet_is_written)
 }
 
-/// Draws and writes the sheet. Returns whether every cell that succeeded is drawn on the sheet.
+/// Draws and writes the sheet. Returns whether the scenes of all successful runs are drawn on the sheet.
 fn write_sheet(
     sheet: &Sheet,
     plan: &Plan,
@@ -210,7 +210,8 @@ impl Plan {
     }
 }
 
-/// Some entries of `keep`, such as `DistanceTo`, compare the scenes with a mesh file. Checks that these files exist.
+/// Some measured values that `keep` lists, such as `DistanceTo`, compare a scene with a mesh file. Checks that these
+/// mesh files exist.
 fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
     for (metric, span) in &sweep.keep {
         if let Some(OtherMesh::File(path)) = Metric::other(metric) {
@@ -223,7 +224,7 @@ fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>
     }
 }
 
-/// Prints and writes the results. Returns whether every cell succeeded.
+/// Prints and writes the results of the sweep. Returns whether every run succeeded.
 fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Result<bool> {
     let failed = results.iter().filter(|r| r.error.is_some()).count();
     let not_run = results.iter().filter(|r| r.is_not_run).count();
@@ -312,8 +313,8 @@ fn short(text: &str) -> String {
     }
 }
 
-/// Shortens the entries of the table, so that the table fits a terminal better. Numbers get fewer digits. An error is
-/// replaced by a mark, because all errors are printed in full below the table.
+/// Shortens the entries of the table, so that the table fits a terminal better. Numbers get fewer digits. Errors are
+/// replaced by a short mark, because all errors are printed in full below the table.
 fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     rows.into_iter()
         .map(|mut row| {

@@ -1,4 +1,4 @@
-//! The sheet of a sweep: one image with the final scenes of all cells.
+//! The sheet of a sweep: one image with the final scenes of all runs.
 //!
 //! ```text
 //!   cell by cell: scene --> extent (small) ---join---> extent of all
@@ -30,7 +30,7 @@ use crate::commands::picture::{SHEET_CELL, check_names, parameters};
 use crate::listener::{INTERRUPT, is_interrupted};
 use crate::many::{error_message, run_in_order};
 
-/// Maximum numbers of lines below the image of a cell: first for the parameter values, then for the measured values
+/// Maximum numbers of lines below each scene on the sheet: first for the parameter values, then for the measured values
 /// that `keep` lists.
 const MAX_LINES: [usize; 2] = [2, 3];
 
@@ -43,15 +43,15 @@ pub(super) struct Sheet<'a> {
     picture: Picture,
     files: Files,
     layout: Layout,
-    /// The memory in bytes, estimated from above, of the scenes that are kept until they are drawn. Each scene counts
-    /// as the estimated peak memory of the run that made it.
+    /// The memory, in bytes, of the scenes that are kept until they are drawn. This is an upper estimate: each scene
+    /// counts as the estimated peak memory of the run that made it.
     kept: AtomicU64,
 }
 
 /// The finished sheet.
 pub(super) struct DrawnSheet {
     pub(super) image: Image,
-    /// The cells that succeeded but cannot be drawn: the index of each cell, and the reason.
+    /// The successful runs whose scenes cannot be drawn: the index of each run, and the reason.
     pub(super) errors: Vec<(usize, String)>,
     /// Notes that say which parts of the scenes are missing from the images.
     pub(super) notes: BTreeSet<String>,
@@ -89,7 +89,7 @@ impl<'a> Sheet<'a> {
         Ok(Some(sheet))
     }
 
-    /// Returns the size of the image of each cell, in pixels.
+    /// Returns the size, in pixels, of each scene on the sheet.
     fn cell_size(&self) -> [u32; 2] {
         let views = self.picture.views.len().max(1);
         let columns = self.picture.columns.map_or(4, |n| n.get() as usize);
@@ -130,8 +130,8 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
-    /// Measures the extent of a cell's scene, and keeps the scene if the memory budget for scenes is large enough.
-    /// `bytes` is the estimated peak memory of the cell's run.
+    /// Measures the extent of the final scene of a run, and keeps the scene if the memory budget for scenes is large
+    /// enough. `bytes` is the estimated peak memory of the run.
     pub(super) fn collect(&self, scene: Scene, bytes: u64) -> CellScene {
         let check = check_names(&self.args.draw.on, &[&scene]);
         let extent = check.map_err(|e| e.to_string()).and_then(|()| {
@@ -157,7 +157,7 @@ impl<'a> Sheet<'a> {
         cx
     }
 
-    /// Draws all cells that succeeded.
+    /// Draws the final scenes of all successful runs.
     pub(super) fn draw(
         &self,
         plan: &Plan,
@@ -226,8 +226,8 @@ impl<'a> Sheet<'a> {
         })
     }
 
-    /// Draws a cell. Returns the image of the cell, and notes that say which parts of the scene are missing from the
-    /// image.
+    /// Draws the final scene of one run. Returns the image, and notes that say which parts of the scene are missing
+    /// from the image.
     fn image(
         &self,
         cells: &Cells,
@@ -283,13 +283,13 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     Ok(wide)
 }
 
-/// Returns the part of the memory budget that is reserved for scenes until they are drawn. The runs of the cells use
+/// Returns the part of the memory budget that is reserved for scenes until they are drawn. The runs of the sweep use
 /// the rest of the budget.
 pub(super) fn kept_bytes(budget: u64) -> u64 {
     budget / 4
 }
 
-/// The positions of cells on a sheet, in order from left to right and from top to bottom.
+/// The places of the scenes on a sheet, in order from left to right and from top to bottom.
 struct Layout {
     columns: usize,
     /// The labels of the rows and the columns of the sheet. The labels exist only if exactly two axes (varying
@@ -297,7 +297,7 @@ struct Layout {
     heads: [Vec<String>; 2],
 }
 
-/// If a sheet has no labels of rows and columns, up to this many cells are placed in one row.
+/// If the rows and columns of a sheet have no labels, up to this number of scenes are placed in a single row.
 const MAX_SINGLE_ROW: usize = 6;
 
 impl Layout {
@@ -309,7 +309,7 @@ impl Layout {
         let columns = match (columns, &changing[..]) {
             (Some(columns), _) => columns as usize,
             (None, [rows, columns]) => {
-                // In the list of cells, the values of the last axis change fastest.
+                // In the list of runs, the values of the last axis (varying parameter) change fastest.
                 let row = |i: usize| values(plan, rows, i * columns.len).join(", ");
                 let column = |i: usize| values(plan, columns, i).join(", ");
                 heads[0].extend((0..rows.len).map(row));
@@ -318,7 +318,7 @@ impl Layout {
             }
             (None, [.., last]) if changing.len() > 2 && last.len <= 2 * MAX_SINGLE_ROW => last.len,
             _ => {
-                // A long list of cells is arranged as a nearly square grid, with rows of equal length.
+                // A large number of scenes is arranged as a nearly square grid, with rows of equal length.
                 let widest = MAX_SINGLE_ROW.max(n.isqrt());
                 n.div_ceil(n.div_ceil(widest).max(1))
             }
@@ -331,9 +331,9 @@ impl Layout {
         Headings { columns, rows }
     }
 
-    /// Returns the text below the image of a cell. The text has the parameter values, unless the rows and columns have
-    /// them as labels. If there is space, the text also has the measured values that `keep` lists. Measured times are
-    /// left out, because they differ from run to run.
+    /// Returns the text below a scene on the sheet. The text has the parameter values, unless the labels of the rows
+    /// and columns show them. If there is space, the text also has the measured values that `keep` lists. Measured
+    /// times are left out, because they differ from run to run.
     fn caption(&self, plan: &Plan, cell: usize, result: &CellResult, width: u32) -> String {
         let style = SheetStyle::default();
         let (size, room) = (f64::from(style.font_size), f64::from(width + style.gap / 2));
@@ -366,7 +366,7 @@ impl Layout {
     }
 }
 
-/// Formats the values that the parameters of an axis have in a cell, such as `size = 0.5`.
+/// Formats the values that the parameters of an axis have in one run, such as `size = 0.5`.
 fn values(plan: &Plan, axis: &Axis, cell: usize) -> Vec<String> {
     let grid = &plan.grid;
     let settings = &grid.cells[cell][axis.parameters.clone()];

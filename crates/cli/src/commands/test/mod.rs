@@ -215,7 +215,7 @@ impl<'a> Test<'a> {
         }
     }
 
-    /// Returns the recipe if it has no errors and is to be run as a test of its own.
+    /// Returns the recipe if it must be run as a test of its own and has no errors.
     fn to_run(&self) -> Option<&Loaded> {
         let loaded = self.loaded.as_ref().ok()?;
         let runs = !loaded.has_errors() && !self.is_called && expects(loaded);

@@ -24,7 +24,7 @@ fn finished_files_are_not_processed_again_until_something_changes() {
     // With a different parameter value, all files are processed again.
     assert_eq!(again("--set levels=2"), 8);
     assert_eq!(again("--set levels=2"), 0);
-    // Changing a comment of the recipe has no effect, but changing an expectation does.
+    // If only a comment of the recipe changes, no file is processed again. If an expectation changes, all files are.
     fs::write(folder.path("recipe.ron"), format!("// new\n{RECIPE}")).unwrap();
     assert_eq!(again("--set levels=2"), 0);
     fs::write(
@@ -69,7 +69,7 @@ fn a_batch_that_is_killed_is_resumed() {
             .count()
     };
     let mut killed_at = Vec::new();
-    // The batch is killed three times. Each time, it has processed at least `further` more files.
+    // The batch is killed three times. Between two kills, it processes at least `further` files.
     for further in [1, 4, 5] {
         let before = n_recorded(&folder);
         let mut child = Command::new(crate::folder::PROGRAM)

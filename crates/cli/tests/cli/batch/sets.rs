@@ -138,8 +138,8 @@ fn the_memory_of_parts_is_estimated_without_a_run() {
             .unwrap()
     };
     let whole = estimate(1);
-    // The largest mesh has 20,480 triangles. The last set has an invalid value of `levels`, so its run counts as 0
-    // bytes.
+    // The largest mesh has 20,480 triangles. The last set has an invalid value of `levels`. The run with this set is
+    // never started, so it counts as 0 bytes.
     assert!((1 << 20..1 << 24).contains(&whole), "{whole}");
     assert_eq!(estimate(3), whole);
     assert!(!folder.path("out").exists());

@@ -24,7 +24,7 @@ fn parts_are_disjoint_and_merged_they_are_the_whole() {
     assert_eq!(parts.iter().map(BTreeSet::len).sum::<usize>(), 21);
     assert_eq!(parts.concat_all().len(), 21);
 
-    // `part1.jsonl` is given twice. In the merged report, each of its rows exists only once.
+    // `part1.jsonl` is given twice. The merged report contains each row of this file only once.
     folder
         .run("batch --merge part3.jsonl part1.jsonl part2.jsonl part1.jsonl --report all.json")
         .with_code(1)

@@ -253,7 +253,8 @@ fn change_surface_further(mesh: &mut Mesh, code: EditCode) {
                     1 => deform::Twist { frame, angle: t }.point(*p),
                     _ => deform::Taper { frame, factor: t }.point(*p),
                 };
-                // Operations refuse positions that are not finite, so this edit does not move such vertices.
+                // Operations refuse to move a vertex to a position that is not finite. So this edit does not move
+                // vertices to such positions.
                 if moved.is_finite() {
                     *p = moved;
                 }

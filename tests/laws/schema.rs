@@ -109,7 +109,7 @@ fn unknown_fields_are_errors_at_every_level() {
     assert_none(&failures);
 }
 
-/// Converts a recipe to JSON, with its parameters replaced by their defaults.
+/// Converts a recipe to JSON. References to parameters are replaced by the default values.
 fn json(source: &str) -> Json {
     json_with(&parameters(source), source)
 }

@@ -36,7 +36,8 @@ def write(path, positions, triangles):
 
 
 def run(program, folder, steps):
-    """Runs a recipe. Returns a dictionary from the operation of each step to its time in milliseconds."""
+    """Runs a recipe. Returns a dictionary with the times of the steps in milliseconds. The keys are the names of the
+    operations."""
     recipe = folder / "recipe.ron"
     recipe.write_text(f"(recipe: 1, steps: [{steps}])")
     command = [program, "run", recipe, "--out", folder, "--no-cache", "--format", "json"]
@@ -96,8 +97,8 @@ def smallest_angles(positions, triangles):
 
 
 def measure(program, source, target):
-    """Returns the number of triangles, the largest, mean and RMS distances relative to the diagonal, and the first
-    percentile of the smallest angles of the triangles."""
+    """Returns the number of triangles, three distances relative to the diagonal (the largest, the mean and the RMS),
+    and the first percentile of the smallest angles of the triangles."""
     difference = subprocess.run([program, "diff", source, target, "--format", "json"], capture_output=True, text=True)
     distance = json.loads(difference.stdout)["objects"][0]["mesh"]["distance"]
     before, after = read(source), read(target)

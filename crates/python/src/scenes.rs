@@ -41,7 +41,7 @@ struct Done {
     written: Vec<(PathBuf, Vec<u8>)>,
 }
 
-/// The sources and the diagnostics of a step that could not run or that failed.
+/// The source texts and the diagnostics of a step that failed or could not run.
 struct Failed(Vec<Source>, Vec<Diagnostic>);
 
 fn step(

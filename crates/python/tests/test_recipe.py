@@ -210,7 +210,7 @@ def test_the_sample(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_variant_with_one_value_and_with_fields(tmp_path: Path) -> None:
-    """`Distance` is a choice in two operations: with one number in `ExtrudeFaces`, with named fields in `Measure`."""
+    """The choice `Distance` has two forms: one number in `ExtrudeFaces`, and named fields in `Measure`."""
     box = mw.Scene().cube(name="box", size=2).mesh()
     grown = box.extrude_faces(faces=sel.Facing(direction=(0, 0, 1), within=1), by=choice.Distance(0.5))
     assert grown.vertices[:, 2].max() == 1.5

@@ -92,7 +92,7 @@ pub(super) fn result(case: &str) -> Lines {
     Lines::of(&folder("results").join(case).with_extension("txt"))
 }
 
-/// Returns the mesh of a case or a result with its attributes.
+/// Returns the mesh of a case or a result, with the attributes of the mesh.
 pub(super) fn mesh_of(case: &Lines) -> Mesh {
     let faces = case.faces();
     let polygons: Vec<Vec<u32>> = faces

@@ -11,9 +11,9 @@ use subdivision::{Rules, Scheme, subdivide};
 
 use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 
-/// The tolerance for uvs, for sharpness, and for positions relative to the size of the mesh. Normals have ten times
-/// this tolerance. A tolerance is necessary because the files contain results with seven decimal places, and OpenSubdiv
-/// stores sharpness as `f32`.
+/// The tolerance for uvs and for sharpness. For positions, it is multiplied by the size of the mesh. Normals have ten
+/// times this tolerance. A tolerance is necessary because the files contain results with seven decimal places, and
+/// OpenSubdiv stores sharpness as `f32`.
 const TOLERANCE: f64 = 1e-6;
 
 /// Finds the nearest position in `expected` for each vertex of `mesh`. Fails if the number of vertices is not the

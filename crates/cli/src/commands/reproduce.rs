@@ -1,5 +1,5 @@
-//! `meshwright reproduce`: finds the recipe that wrote a file, runs it again, and compares the bytes of the new file
-//! and the old file.
+//! `meshwright reproduce`: finds the recipe that wrote a file, runs this recipe again, and compares the bytes of the
+//! new file and the old file.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -15,7 +15,7 @@ fn shell(folder: &Folder, commands: &str, argument: &str) {
     assert!(ended.success());
 }
 
-/// Runs a copy of the program that is alone in a folder, so that no editor is beside it.
+/// Runs a copy of the program from a folder with no other files, so that the editor is missing there.
 fn edit(folder: &Folder, arguments: &[&str]) -> Output {
     shell(folder, "mkdir -p bin; cp \"$1\" bin/meshwright", PROGRAM);
     let mut command = Command::new(folder.path("bin/meshwright"));

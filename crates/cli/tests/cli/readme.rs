@@ -1,4 +1,4 @@
-//! The README: its recipe with its output, its example of an error, and its table of commands.
+//! Tests the README: the recipe with its output, the example of an error, and the table of commands.
 
 use std::fs;
 use std::path::Path;

@@ -261,7 +261,7 @@ class Task:
     arguments: list[str]
     #: The number of files in this part, each counted once for each parameter set.
     runs: int
-    #: The estimated memory of its process, in bytes.
+    #: The estimated memory of the process that runs this part, in bytes.
     bytes: int
 
 
@@ -309,7 +309,7 @@ def run_on_ray(ray: Any, divided: Callable[[int], list[Task]], show: Progress | 
         ray.init(include_dashboard=False)
     nodes = [node["Resources"] for node in ray.nodes() if node["Alive"]]
     threads = int(sum(node.get("CPU", 0) for node in nodes))
-    # If a task requested more memory than any machine has, it would wait forever.
+    # If a task requested more memory than any machine has, the task would wait forever.
     room = int(max((node.get("memory", 0) for node in nodes), default=0))
     made = divided(threads)
     counter = Counter(show, sum(task.runs for task in made))
@@ -333,7 +333,7 @@ def run_on_dask(client: Any, divided: Callable[[int], list[Task]], show: Progres
     threads = sum(client.ncores().values())
     made = divided(threads)
     counter = Counter(show, sum(task.runs for task in made))
-    # If a task requested more memory than any worker has, it would wait forever.
+    # If a task requested more memory than any worker has, the task would wait forever.
     room = max((m for m in memory_of_workers(client) if m is not None), default=None)
     running = {
         client.submit(

@@ -57,8 +57,8 @@ class Editor:
         self._core.flip(edge)
 
     def split(self, edge: int, at: float = 0.5) -> int:
-        """Inserts a vertex on an edge. If a face of the edge is a triangle, it is cut in two, from the new vertex to
-        the opposite corner. Returns the vertex.
+        """Inserts a vertex on an edge. If a face of the edge is a triangle, this triangle is cut in two, from the new
+        vertex to the opposite corner. Returns the vertex.
 
         :param at: The position along the edge, strictly between 0 (the first of its :meth:`edge_vertices`) and 1.
         """

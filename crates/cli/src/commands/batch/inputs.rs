@@ -82,8 +82,8 @@ pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
     Ok(inputs)
 }
 
-/// Finds the files that match one pattern. Does not follow links to folders, since they can form cycles. Finds hidden
-/// files only if the name of a file or folder in the pattern begins with a dot.
+/// Finds the files that match one pattern. Does not follow links to folders, since such links can form cycles. Finds
+/// hidden files only if the name of a file or folder in the pattern begins with a dot.
 fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     let (base, rest) = split(pattern);
     let invalid = || format!("{pattern} is not a valid file pattern");

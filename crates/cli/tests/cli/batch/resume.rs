@@ -17,7 +17,8 @@ fn finished_files_are_not_processed_again_until_something_changes() {
     // After the change of an input file, only this file is processed again.
     fs::write(folder.path("models/m002.obj"), tetrahedron(9)).unwrap();
     assert_eq!(again(""), 1);
-    // After one output file was removed and another was changed, their two input files are processed again.
+    // One output file was removed, and another was changed. Only the input files of these two outputs are processed
+    // again.
     fs::remove_file(folder.path("out/m001.obj")).unwrap();
     fs::write(folder.path("out/m004.obj"), "").unwrap();
     assert_eq!(again(""), 2);

@@ -400,8 +400,8 @@ fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
         .unwrap_or(h)
 }
 
-/// Applies the edit and checks the guarantees of every edit. The mesh stays valid. If the mesh has no duplicate edges,
-/// the edit creates no duplicate edges, unless its documentation allows this. If the edit is refused, nothing changes.
+/// Applies the edit, and checks three guarantees. The mesh stays valid. If the mesh has no duplicate edges, the edit
+/// creates no duplicate edges, unless its documentation allows this. If the edit is refused, nothing changes.
 ///
 /// # Panics
 ///

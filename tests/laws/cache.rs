@@ -161,7 +161,7 @@ fn every_operation_that_the_scenes_use_can_be_cached() {
         run(&path, Some(&cache));
         let (_, outcome) = run(&path, Some(&cache));
         for step in &outcome.steps {
-            // A large output that takes little time to write is not cached, so its step can run again.
+            // A large output is not cached if it can be written quickly. Then the step can run again.
             let fine = matches!(step.ran, None | Some(recipe::RerunReason::NotKept));
             assert!(fine, "{}, {}: {:?}", path.display(), step.label, step.ran);
         }

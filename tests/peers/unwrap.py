@@ -98,7 +98,8 @@ def measure(positions, uvs):
 
 
 def quantile(values, areas, share):
-    """Returns the value v for which the triangles with values up to v have the given share of the area."""
+    """Returns a limit for the values: the triangles whose values do not exceed this limit cover the given share of the
+    area."""
     order = numpy.argsort(values)
     sums = numpy.cumsum(areas[order])
     return values[order][numpy.searchsorted(sums, share * sums[-1])]

@@ -240,8 +240,8 @@ pub(crate) fn group_digits(n: u64) -> String {
     text
 }
 
-/// Returns a text for `--explain`. A table shows where the value of each parameter comes from, for the recipe and the
-/// recipes that it calls. After the table, the text lists the steps that have a field `note`.
+/// Returns the text that `--explain` prints. A table shows where the value of each parameter comes from, for the recipe
+/// and the recipes that it calls. After the table, the text lists the steps that have a field `note`.
 pub(crate) fn explain(recipe: &Recipe) -> String {
     let mut rows = vec![header_row(["parameter", "value", "from"])];
     for scope in &recipe.scopes {

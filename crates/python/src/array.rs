@@ -153,8 +153,8 @@ impl Array {
         reason = "PyO3 requires this signature"
     )]
     // SAFETY: `PyBuffer_FillInfo` stores the pointer and a reference to `slf` in `view`, and refuses requests for
-    // writable memory. The bytes belong to `slf`, which is frozen, or to a mesh that `slf` shares and never changes. So
-    // the bytes stay valid and constant as long as the reference exists. Python passes a valid `view`.
+    // writable memory. The bytes belong to `slf`, which is frozen, or to a mesh that `slf` shares. Such a mesh is never
+    // changed. So the bytes stay valid and constant as long as the reference exists. Python passes a valid `view`.
     unsafe fn __getbuffer__(
         slf: Bound<'_, Self>,
         view: *mut ffi::Py_buffer,

@@ -98,7 +98,8 @@ impl Recipe {
         peaks.max().filter(|&peak| peak < u64::MAX)
     }
 
-    /// Runs the recipe. Returns the scene, and a dictionary with the digest of the scene, the steps and the files.
+    /// Runs the recipe. Returns the scene, and a dictionary with the steps, the files, the number of expectations and
+    /// the digest of the scene.
     fn run<'py>(
         &self,
         py: Python<'py>,

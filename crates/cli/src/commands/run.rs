@@ -66,7 +66,7 @@ pub(crate) fn load_to_run(args: &RunArgs, engine: &Engine) -> anyhow::Result<Loa
     Ok(loaded)
 }
 
-/// Runs a recipe until its end or until `go_on` returns false. Draws failures, if the options request this. If the
+/// Runs a recipe until its end or until `go_on` returns false. Draws failures if `--picture-errors` is given. If the
 /// recipe has errors, prints them and returns `None`. If the option `--format json` is given, prints the events of the
 /// run.
 pub(crate) fn execute(

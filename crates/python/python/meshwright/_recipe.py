@@ -250,7 +250,7 @@ class Recipe(SceneOperations):
 
     @property
     def path(self) -> str:
-        """The path of the file of the recipe."""
+        """The path of the recipe file."""
         return self._path
 
     @property

@@ -20,7 +20,7 @@ use crate::listener::is_interrupted;
 use crate::many::run_all;
 use crate::output::{print, write_atomically};
 
-/// The memory of a part.
+/// The estimated memory of one part of the batch.
 #[derive(Clone, Debug, Default, Serialize)]
 struct Memory {
     part: u32,

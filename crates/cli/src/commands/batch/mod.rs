@@ -136,7 +136,7 @@ enum Task {
     Fail(FileResult),
 }
 
-/// The result of an input file.
+/// The result of the run on an input file.
 #[derive(Clone, Default)]
 struct FileResult {
     row: Row,

@@ -186,8 +186,8 @@ impl<'a> Batch<'a> {
         load_text(&self.source, &self.values(file), out, checking, self.engine)
     }
 
-    /// Returns the digest of everything that the row of an input file depends on. Returns `None` if a file that the
-    /// recipe reads cannot be read.
+    /// Returns a digest of everything on which the row of an input file in the report depends. Returns `None` if a file
+    /// that the recipe reads cannot be read.
     pub(super) fn key(&self, file: &Input, loaded: &Loaded) -> Option<String> {
         let mut hasher = blake3::Hasher::new();
         // Before each string, its length is hashed. Otherwise, the lists `["ab", "c"]` and `["a", "bc"]` would have the

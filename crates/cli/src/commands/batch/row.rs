@@ -39,7 +39,7 @@ use crate::args::Shard;
 use crate::many::csv_line;
 use crate::output::write_atomically;
 
-/// The result of one input file.
+/// The result of the run on one input file: one row of the report.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(expecting = "an object")]
 pub(super) struct Row {

@@ -84,17 +84,17 @@ pub fn pick_control_point(scene: &Scene, view: &Projection, pixel: DVec2) -> Opt
 }
 
 impl Editor {
-    /// Moves a control point of a curve or patch. The control point must exist in the scene at the step cursor, which
-    /// is a position between two steps of the recipe. A step `MoveControlPoint` or `MovePatchPoint` is inserted at the
-    /// cursor. The new position `to` is in the space of the object. In this space, a curve lies in the plane z = 0. If
-    /// the step before the cursor already moves the same control point, the parameter `to` of that step is changed
-    /// instead. Several movements of the same control point therefore become one step. If `is_preview` is true, the
-    /// movement is only previewed, and the text does not change.
+    /// Moves a control point of a curve or patch. The control point must exist in the scene after the last step before
+    /// the step cursor. A step `MoveControlPoint` or `MovePatchPoint` is inserted at the cursor. The new position `to`
+    /// is in the space of the object. In this space, a curve lies in the plane z = 0. If the step before the cursor
+    /// already moves the same control point, the parameter `to` of that step is changed instead. Several movements of
+    /// the same control point therefore become one step. If `is_preview` is true, the movement is only previewed, and
+    /// the text does not change.
     ///
     /// # Errors
     ///
-    /// Returns [`CommandError::NoControlPoints`] if the object is neither a curve nor patches. Also returns the errors
-    /// of [`Editor::apply`].
+    /// Returns [`CommandError::NoControlPoints`] if the object is neither a curve nor a set of patches. Also returns
+    /// the errors of [`Editor::apply`].
     pub fn move_control_point(
         &mut self,
         object: &str,

@@ -130,7 +130,7 @@ impl Action {
 /// An action, its default keys, and what it does.
 type Row = (Action, &'static [&'static str], &'static str);
 
-/// The actions by task.
+/// All actions, grouped by task.
 const GROUPS: &[(&str, &[Row])] = &[
     (
         "Edit",
@@ -338,7 +338,7 @@ impl Default for Keys {
     }
 }
 
-/// The reason why a file that changes keys cannot be used.
+/// Why the keys in a file cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum KeysError {
     /// The text is not a map from actions to lists of keys.

@@ -18,12 +18,13 @@ const MAX_EDITS: usize = 10_000;
 /// moves of vertices.
 const LOOP: &str = "LoopSubdivide";
 
-/// The local edits of a step, and the number of edits that are done.
+/// The local edits of a step, and the number of edits that have been made so far.
 #[derive(Debug)]
 pub struct Play {
     mesh: Mesh,
     edits: Vec<PlayedEdit>,
-    /// For each edit, a change of the mesh. It undoes the edit if the edit is done, and makes the edit otherwise.
+    /// For each edit, the change of the mesh that undoes the edit (if the edit has been made) or makes the edit (if
+    /// not).
     changes: Vec<Option<Change>>,
     at: usize,
 }
@@ -194,8 +195,8 @@ impl Play {
         self.changes.push(change);
     }
 
-    /// Returns the mesh after the edits that are done. The indices of removed elements are not used again, so there can
-    /// be gaps between the indices of the mesh's elements.
+    /// Returns the mesh after the edits that have been made so far. The indices of removed elements are not used again,
+    /// so there can be gaps between the indices of the mesh's elements.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -205,7 +206,7 @@ impl Play {
         &self.edits
     }
 
-    /// Returns the number of edits that are done.
+    /// Returns the number of edits that have been made so far.
     pub fn position(&self) -> usize {
         self.at
     }
@@ -220,7 +221,7 @@ impl Play {
         can
     }
 
-    /// Undoes the last edit that is done. Returns `false` if no edit is done.
+    /// Undoes the edit that was made last. Returns `false` if there is no edit to undo.
     pub fn back(&mut self) -> bool {
         let can = self.at > 0;
         if can {
@@ -291,8 +292,8 @@ impl Editor {
         Some((object.to_owned(), scene))
     }
 
-    /// If a step is one level of Loop subdivision that can be played, returns the name of the object and two meshes:
-    /// the object before and after the step.
+    /// Returns the name of the subdivided object, and its mesh before and after the step. Returns `None` if the step is
+    /// not one level of Loop subdivision that can be played.
     fn loop_level(&self, step: usize) -> Option<(String, [Arc<Mesh>; 2])> {
         let (object, before) = self.played_object(step)?;
         let after = self.scene_before(step + 1)?;

@@ -17,8 +17,8 @@ pub(crate) struct Mark {
     pub(crate) is_error: bool,
 }
 
-/// Lays out a recipe. The tokens have colors, the bytes in the range `current` have a background color, and the marks
-/// are underlined.
+/// Lays out the text of a recipe for display. The tokens have colors, the bytes in the range `current` have a
+/// background color, and the marks are underlined.
 pub(crate) fn layout(
     text: &str,
     colors: &Colors,

@@ -31,7 +31,7 @@ pub(crate) fn over_view(ui: &mut Ui, rect: Rect, parts: &mut Parts) {
     });
 }
 
-/// Draws the progress of a run that takes long, at the bottom of the view.
+/// Draws the progress of the run at the bottom of the view, if the run takes a long time.
 fn progress(ui: &mut Ui, parts: &Parts) {
     let Some(progress) = parts.editor.progress().filter(|_| parts.runs_long()) else {
         return;
@@ -210,8 +210,8 @@ fn color_combo(ui: &mut Ui, view: &mut ViewPane, scene: &scene::Scene) {
         .map_or_else(|| "Material".to_owned(), Quantity::title);
     let combo = ComboBox::from_id_salt("color")
         .selected_text(name)
-        // A long name is truncated, because it would move the controls after it to a second row. The legend shows the
-        // whole name.
+        // A long name is truncated, because the controls after the name would otherwise move to a second row. The
+        // legend shows the whole name.
         .truncate()
         .width(90.0)
         .show_ui(ui, |ui| {

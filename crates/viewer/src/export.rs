@@ -28,7 +28,7 @@ pub(crate) struct Drawing {
     path: PathBuf,
     is_gif: bool,
     images: Vec<Image>,
-    /// For each image, the number of edits that are done before the image is drawn.
+    /// For each image, the number of edits that have been played when the image is drawn.
     moments: Vec<usize>,
 }
 

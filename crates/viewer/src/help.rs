@@ -26,7 +26,7 @@ const MOUSE: [(&str, &str); 10] = [
     ("Drag a control point", "move it (curves and patches)"),
 ];
 
-/// The name of the task below which the help also shows the keys in `SIDES`.
+/// The name of a task in the help. Below this name, the help also shows the keys in `SIDES`.
 const LOOK: &str = "Look";
 /// Keys that the table of actions does not have.
 const SIDES: [(&str, &str); 2] = [

@@ -1,4 +1,4 @@
-//! Creates the overlay, which is drawn on top of the scene: picked elements, the element under the cursor, the arrow of
+//! Creates the overlay, which is drawn on top of the scene: picked elements, the element under the cursor, an arrow for
 //! the half-edge, and the places of errors.
 
 use editor::Picked;

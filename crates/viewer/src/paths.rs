@@ -52,7 +52,7 @@ impl Purpose {
         extensions.any(|fitting| extension.eq_ignore_ascii_case(fitting))
     }
 
-    /// Returns the extension of a file to save; empty for a file to open.
+    /// Returns the extension of the file to be saved. If a file is opened, the extension is empty.
     fn extension(self) -> &'static str {
         match self {
             Self::Open => "",
@@ -172,8 +172,8 @@ fn row(ui: &mut Ui, entry: &Listed) -> Response {
 }
 
 /// Lists the content of a folder: the parent folder if there is one, then the folders, then the files that fit the
-/// purpose. Folders and files are sorted by name. Names that begin with a point are left out. If the folder cannot be
-/// read, the list has at most the parent folder.
+/// purpose. Folders and files are sorted by name. Folders and files whose names begin with `.` are left out. If the
+/// folder cannot be read, lists only the parent folder if there is one.
 fn entries(folder: &Path, purpose: Purpose) -> Vec<Listed> {
     let listed = |entry: std::fs::DirEntry| {
         let path = entry.path();

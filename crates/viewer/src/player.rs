@@ -16,7 +16,7 @@ use crate::theme::Colors;
 /// The maximum number of half-edges whose pointers are listed.
 const MAX_POINTERS: usize = 24;
 
-/// The edits of a step that are played.
+/// Plays the edits of one step.
 pub(crate) struct Player {
     play: Play,
     object: String,
@@ -24,7 +24,7 @@ pub(crate) struct Player {
     step: usize,
     /// The version of the text that the edits belong to.
     version: u64,
-    /// The scene before the step, but with a changed mesh: it already has the edits that are done.
+    /// The scene before the step, but with a changed mesh: it already has the edits that have been played so far.
     scene: Arc<Scene>,
     /// The number of edits per second.
     speed: f64,
@@ -34,7 +34,7 @@ pub(crate) struct Player {
 }
 
 impl Player {
-    /// Returns the scene after the edits that are done.
+    /// Returns the scene after the edits that have been played so far.
     pub(crate) fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
@@ -74,7 +74,7 @@ impl Player {
         self.update();
     }
 
-    /// Shows the mesh after the edits that are done.
+    /// Shows the mesh after the edits that have been played so far.
     fn update(&mut self) {
         if let Some((geometry, _)) = Arc::make_mut(&mut self.scene).parts_mut(&self.object) {
             *geometry = Geometry::Mesh(Arc::new(self.play.mesh().clone()));

@@ -10,7 +10,7 @@ use crate::app::Parts;
 use crate::theme::Colors;
 use crate::widgets::{dot, duration, size};
 
-/// An edit of a step that the user requests in the list.
+/// What the user does with a step in the list.
 enum Edit {
     Cursor(usize),
     Delete(usize),
@@ -240,7 +240,7 @@ impl NotSelectable for Ui {
     }
 }
 
-/// The information about a step that the list shows.
+/// What the list shows about a step.
 struct Summary {
     is_known: bool,
     time: String,

@@ -197,8 +197,8 @@ struct Words {
 }
 
 /// Returns the completions of the word before the cursor. A word that begins with a capital letter is completed to
-/// names of operations. But in the value of a parameter with variants, it is completed to names of these variants. All
-/// other words are completed to names of the parameters of the step.
+/// names of operations. But if the word is in the value of a parameter with variants, it is completed to names of these
+/// variants. All other words are completed to names of the parameters of the step.
 fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     let none = Words {
         range: 0..0,
@@ -256,9 +256,9 @@ fn completions(parts: &Parts, ui: &Ui, id: Id) -> Words {
     }
 }
 
-/// Returns the variants of the parameter whose value contains a byte of the text. Inside a nested selection, such as
-/// `Sharp` in `Not(Sharp(above: 30))`, the result is the same: the variants of the whole parameter. Returns no variants
-/// if the byte is not in the value of a parameter of a step.
+/// If the byte `at` of the text is in the value of a step's parameter, returns the variants of this parameter. Inside a
+/// nested selection, such as `Sharp` in `Not(Sharp(above: 30))`, the result is the same: the variants of the whole
+/// parameter. Otherwise, returns no variants.
 fn variants_at(editor: &editor::Editor, at: usize) -> Vec<recipe::VariantDoc> {
     let outline = editor.outline();
     let field = outline.step_at(at).and_then(|step| {

@@ -1,4 +1,4 @@
-// A server for a folder, and a Chromium that opens its pages without a screen.
+// Serves a folder over HTTP, and opens its pages in a Chromium browser without a screen.
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import { createRequire } from "node:module";

@@ -58,7 +58,8 @@ export class Completions {
         return [found?.detail, found?.info].filter(Boolean).join("\n") || null;
     }
 
-    /// Returns the alternatives that a node of the schema stands for. Follows references and choices.
+    /// Returns the alternatives that a node of the schema stands for. Follows references (`$ref`), and replaces a
+    /// choice (such as `oneOf`) by its alternatives.
     #alternatives(node) {
         if (!node || typeof node !== "object") {
             return [];
@@ -68,7 +69,7 @@ export class Completions {
         return choices ? choices.flatMap((choice) => this.#alternatives(choice)) : [target];
     }
 
-    /// Returns the nodes that describe the content of a bracket.
+    /// Returns the schema nodes that describe everything between two brackets.
     #inside(nodes, { open, name }) {
         const all = nodes.flatMap((node) => this.#alternatives(node));
         if (open === "(" && name) {
@@ -78,7 +79,7 @@ export class Completions {
         return all.filter((node) => !isVariant(node));
     }
 
-    /// Returns the nodes that describe a value in a bracket.
+    /// Returns the schema nodes that describe one value between two brackets.
     #values(inside, { open, name, field, index }) {
         return inside.flatMap((node) => {
             if (open === "{") {
@@ -187,7 +188,7 @@ export class Completions {
         return this.#steps(({ name }) => this.#schema.$defs[name]?.properties?.levels);
     }
 
-    /// Returns the operations that are most often used on whole meshes, as examples of steps.
+    /// Returns an example step for each operation that is often used on whole meshes.
     onMeshes() {
         return this.#steps(({ name }) => ON_MESHES.includes(name));
     }
@@ -207,7 +208,7 @@ function escaped(template) {
     return template.replace(/[\\{}$#]/g, (c) => ("{}".includes(c) ? `\\${c}` : c));
 }
 
-/// Returns the text of a step with another value of a field.
+/// Sets a field in the text of a step to `value`, and returns the new text.
 function withField(step, field, value) {
     const start = step.search(new RegExp(`[( ]${field}: `));
     if (start < 0) {

@@ -1,4 +1,4 @@
-// Dialogs, and texts that are copied.
+// Shows dialogs, and copies texts to the clipboard.
 import { byId, notify } from "./dom.js";
 import { link } from "./share.js";
 

@@ -178,8 +178,8 @@ export class Engine {
 
     /// Runs a recipe up to a step. `number` is the number of this step in the list that `check` returns, counted from
     /// 1. If the engine still has the result of a step, this step does not run again. Returns the result, and the
-    /// number of steps of the text up to this step. This number can differ from `number`: a `Call`, `Repeat` or `If` is
-    /// one step of the text, but can be several steps of the list or none.
+    /// number of steps of the text up to this step. This number can differ from `number`. For example, a `Repeat` is
+    /// one step of the text, but several steps of the list that `check` returns.
     async runTo(number, recipe, set) {
         let [written, most] = [1, outline(recipe).steps.length];
         while (written < most) {

@@ -4,13 +4,13 @@ import { quoted } from "./ron.js";
 
 const MODELS = /\.(obj|gltf|glb|ply|stl|off|dae|bez|bzc|mws)(\.gz)?$/i;
 
-/// The maximum size of a file in bytes. Meshes may have 1 GiB in total.
+/// The maximum size of a file in bytes. All meshes of a run together can also use at most 1 GiB.
 const MAX_SIZE = 2 ** 30;
 
 /// The maximum number of files in a folder.
 const MAX_FILES = 2000;
 
-/// Returns a path as a path below the folder of the recipe: without control characters, and without parts such as `..`.
+/// Changes a path so that it stays inside the folder of the recipe: removes control characters, and parts such as `..`.
 /// Returns `null` if nothing is left.
 export function safePath(path) {
     const parts = path.split(/[/\\]/).map((part) => part.replace(/[\u0000-\u001f\u007f]/g, "").trim());

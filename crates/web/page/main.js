@@ -34,7 +34,8 @@ let showing = false;
 let sameRecipe = false;
 /// The axis that points upwards: "y", "z" or "auto".
 let up = "auto";
-/// True while a text is opened that the browser must not keep for the next visit.
+/// True while the page opens a text that is not the visitor's own. The browser must not keep this text for the next
+/// visit.
 let foreign = false;
 /// The text and the values of the last run. The problems and steps of this run are shown until the text or a value
 /// changes.
@@ -319,7 +320,8 @@ async function writeNamed(recipe) {
     }
 }
 
-/// Keeps the text for the next visit, if the browser allows it. The recipe of a link is kept only once it is edited.
+/// Keeps the text for the next visit, if the browser allows it. The recipe of a link is not kept before the visitor
+/// edits it.
 function edited() {
     if (foreign) {
         return;
@@ -357,8 +359,8 @@ function listen() {
     byId("save-recipe").addEventListener("click", () => download("recipe.ron", editor.text, "text/plain"));
     document.querySelector("nav").addEventListener("click", ({ target }) => target.dataset.tab && showTab(target.dataset.tab));
     addEventListener("hashchange", openShared);
-    // If the visitor leaves the page during a run, the run counts as ended, because the run did not cause the end of
-    // the page.
+    // If the visitor leaves the page during a run, the run counts as ended, because it was not the run that ended the
+    // page.
     addEventListener("pagehide", () => running && runEnds());
     addEventListener("keydown", (event) => {
         if (event.key === "Enter" && (event.ctrlKey || event.metaKey) && !event.defaultPrevented) {

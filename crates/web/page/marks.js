@@ -15,7 +15,8 @@ export class Marks {
     #face = new THREE.MeshBasicMaterial({ color: COLOR, side: THREE.DoubleSide, transparent: true, opacity: 0.65,
         polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
 
-    /// Marks elements. `places` returns, for each instance of a mesh, the map from the mesh to the view.
+    /// Marks elements. `places(mesh)` returns a matrix for each instance of a mesh: the matrix from the space of the
+    /// mesh to the space of the view.
     show(picks, places) {
         this.clear();
         for (const pick of picks) {

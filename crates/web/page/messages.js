@@ -8,8 +8,8 @@ const IN_PAGE = [
     [" or the memory budget (`--budget`)", ""],
 ];
 
-/// Returns the problems with messages that fit the page. If the page has nothing that replaces a command, the message
-/// says that the command belongs to the command-line program.
+/// Returns the problems with changed messages: each command of the command-line program is replaced by what the page
+/// has instead. If the page has nothing instead, the message says that the command belongs to the command-line program.
 export function inPage(problems) {
     return problems.map((problem) => ({ ...problem, message: translated(problem.message), help: problem.help && translated(problem.help) }));
 }

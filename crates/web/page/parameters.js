@@ -111,7 +111,7 @@ function written(type, value) {
     return type === "Int" || type === "Float" ? String(Number(value)) : value;
 }
 
-/// Returns a round number as the step of a slider. The slider then has 100 to 1000 positions.
+/// Returns the step of a slider, which is a power of ten. The slider then has 100 to 1000 positions.
 function step(min, max) {
     return 10 ** Math.floor(Math.log10((max - min) / 100)) || "any";
 }

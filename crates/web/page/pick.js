@@ -1,8 +1,8 @@
 // Finds the element of a mesh that is nearest to a click.
 
-/// Finds the face that contains a triangle. Among the elements of this face that have the given kind ("vertex", "edge"
-/// or "face"), returns the element nearest to the point `at` of the page, as `{ kind, number, vertices }`. `place`
-/// returns where a vertex is on the page.
+/// Finds the face that contains a triangle. If `kind` is "face", returns this face. If `kind` is "vertex" or "edge",
+/// returns the vertex or edge of this face that is nearest to the point `at` of the page. The result is `{ kind,
+/// number, vertices }`. `place` returns where a vertex is on the page.
 export function nearest(mesh, triangle, kind, at, place) {
     const face = mesh.faces[triangle];
     const corners = faceCorners(mesh, face, triangle);
@@ -67,7 +67,7 @@ function faceCorners(mesh, face, triangle) {
     return faceTriangles(mesh, face, triangle).flatMap((i) => [...mesh.triangles.subarray(3 * i, 3 * i + 3)]);
 }
 
-/// Returns the sides of the triangles that are edges of the mesh. The diagonals of a polygon are left out.
+/// Returns those sides of the triangles that are edges of the mesh, not diagonals of a polygon.
 function faceEdges(mesh, corners) {
     const pairs = new Set();
     for (let i = 0; i < corners.length; i += 3) {

@@ -1,7 +1,7 @@
 // Problems, steps, expectations and the digest.
 import { byId, counted, element, sizeText } from "./dom.js";
 
-/// Shows problems as a list. `reveal` moves to the place of a problem.
+/// Shows problems as a list. `reveal` moves the cursor to the place of a problem.
 export function showProblems(problems, reveal) {
     const errors = problems.filter((problem) => problem.severity === "error").length;
     const warnings = problems.length - errors;
@@ -26,8 +26,8 @@ export class Steps {
     #steps = [];
     #begin = 0;
 
-    /// `reveal` moves to a place of the recipe. `choose` is called with the number and the line of a step that is
-    /// clicked.
+    /// `reveal` moves the cursor to a place of the recipe. `choose` is called with the number and the line of a step
+    /// that is clicked.
     constructor(reveal, choose) {
         this.reveal = reveal;
         this.choose = choose;
@@ -43,7 +43,7 @@ export class Steps {
         this.#rows.forEach((row, i) => row.classList.toggle("shown", i === number - 1));
     }
 
-    /// Shows steps that have not run, and the forecast of their memory in bytes if it is known.
+    /// Shows steps that have not run. `bytes` is the predicted memory of their meshes, if it is known.
     list(steps, bytes) {
         this.#steps = steps;
         this.#rows = steps.map(({ label, operation, line }, i) => {

@@ -40,7 +40,7 @@ export class Stage {
         this.#listen();
     }
 
-    /// Offers steps, once the schema is known.
+    /// Sets the completions when the schema is known, and offers steps from them.
     set completions(completions) {
         this.#completions = completions;
         this.#offerSteps();

@@ -11,7 +11,7 @@ export class StepForm {
     #inputs = [];
     /// The inputs that the form has. The form is built again only if other inputs are needed.
     #layout = "";
-    /// Describes the fields of operations. Set once the schema is known.
+    /// Describes the fields of operations. `null` until the schema is known.
     completions = null;
 
     /// `onChange` is called after an input has changed the text.

@@ -478,7 +478,7 @@ const tests = {
         console.log(`  a cancel takes ${milliseconds.toFixed(1)} ms`);
         assert(milliseconds < 1000);
         assert.match(await text(page, "#steps"), /canceled/);
-        // The view keeps the meshes of the first run with their colors. The new engine has no scene for other colors.
+        // The view keeps the meshes of the first run, and their colors. The new engine has no scene for other colors.
         assert.notEqual(await page.evaluate(() => meshwright.stage.meshes.length), 0);
         assert.match(await text(page, "#legend"), /^valence/);
         assert.equal(await page.locator("#color-by").isDisabled(), true);
@@ -649,7 +649,7 @@ const tests = {
         }
         assert.match(await text(page, "#stage-note"), /it was not run: absent.obj/);
         assert.equal(await page.locator("main img[onerror], main script, main b").count(), 0);
-        // The recipe of a link does not replace the visitor's own text before the visitor edits it.
+        // The recipe of a link does not replace the visitor's own text, because the visitor has not edited this recipe.
         await page.goto(`${origin}/?again`);
         await ready(page);
         assert.match(await page.evaluate(() => meshwright.editor.text), /jack/);
@@ -927,8 +927,8 @@ for (const [name, test] of Object.entries(tests)) {
     await check(name, test);
 }
 
-/// Measures a step in the second of two runs. The names of the objects differ, because otherwise the step would not run
-/// in the second run.
+/// Runs two recipes, and measures the last step of the second run. The names of the objects differ, because otherwise
+/// the step would not run again.
 async function longest(page) {
     await ready(page);
     const recipe = (name) => `(recipe: 1, steps: [Cube(name: "${name}"), Triangulate(), LoopSubdivide(levels: 9)])`;

@@ -23,8 +23,8 @@ export class View {
     #content = new THREE.Group();
     /// The earlier meshes, which were shown before the current ones.
     #earlier = new THREE.Group();
-    /// The earlier meshes are shown in the left part of the view. This is the width of this part, as a fraction from 0
-    /// to 1.
+    /// The width of the left part of the view, which shows the earlier meshes. The width is a fraction of the whole
+    /// width, from 0 to 1.
     #split = 0;
     #marks = new Marks();
     #center = new THREE.Vector3();
@@ -57,9 +57,10 @@ export class View {
         this.#resize();
     }
 
-    /// Shows meshes: `{ name, center, positions, triangles, faces, edges, placements }`. The camera stays if `keep` is
-    /// true and the size of the scene is similar. `up` is the axis that points upwards: "y", "z", or "auto" for the
-    /// axis that pictures of recipes use. Returns the axis.
+    /// Shows meshes: `{ name, center, positions, triangles, faces, edges, placements }`. If `keep` is true, the camera
+    /// moves only if meshes would leave the view, or if the size of the scene changes by more than a factor of 2. `up`
+    /// is the axis that points upwards: "y", "z", or "auto" for the axis that pictures of recipes use. Returns the
+    /// axis.
     show(meshes, keep, up) {
         const before = this.#radius;
         const sawAll = this.#seesAll();
@@ -144,8 +145,8 @@ export class View {
         this.style({});
     }
 
-    /// Moves the camera so that all meshes fit the view. `front` is the direction to the camera. Defaults to the front,
-    /// a little from the side and from above.
+    /// Moves the camera so that all meshes fit the view. `front` is the direction to the camera. By default, the camera
+    /// looks from the front, a little from the side and from above.
     fit(front = this.#style.up === "z" ? new THREE.Vector3(0.55, -1, 0.5) : new THREE.Vector3(0.55, 0.5, 1)) {
         const up = this.#style.up === "z" ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
         const center = this.box?.isEmpty() === false ? this.box.getCenter(new THREE.Vector3()) : new THREE.Vector3();
@@ -228,7 +229,7 @@ export class View {
         }
     }
 
-    /// Returns the least distance of the camera from which all vertices are visible, with a margin.
+    /// Returns the smallest distance of the camera at which all vertices are visible, plus a margin.
     #distance(front, up, center) {
         const right = new THREE.Vector3().crossVectors(up, front).normalize();
         const upwards = new THREE.Vector3().crossVectors(front, right);
@@ -351,7 +352,7 @@ export class View {
     }
 }
 
-/// Returns the map from the coordinates of a mesh to those of the scene.
+/// Returns the matrix from the space of a mesh to the space of the scene.
 function placement(mesh, instance) {
     return new THREE.Matrix4().fromArray(mesh.placements, 16 * instance);
 }

@@ -163,7 +163,7 @@ impl Session {
     }
 }
 
-/// The arrays of a mesh. Each array can be taken once.
+/// The arrays of a mesh. Each array can be taken only once.
 #[wasm_bindgen]
 pub struct View(Arrays);
 
@@ -210,7 +210,7 @@ impl Colored {
         serde_json::json!({ "legend": self.0.legend, "meshes": meshes }).to_string()
     }
 
-    /// The colors of the mesh with this index. The colors of each mesh can be taken once.
+    /// The colors of the mesh with this index. A second call for the same mesh returns no colors.
     pub fn colors(&mut self, mesh: usize) -> Vec<u8> {
         let mesh = self.0.meshes.get_mut(mesh);
         mesh.map_or_else(Vec::new, |m| std::mem::take(&mut m.colors))

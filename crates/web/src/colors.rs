@@ -151,8 +151,8 @@ mod tests {
         }
     }
 
-    /// In a box with faces of two sizes, the smaller faces have the first color of the legend, and the larger faces the
-    /// last.
+    /// In a box with faces of two sizes, the smaller faces have the first color of the legend, and the larger faces
+    /// have the last color.
     #[test]
     fn the_colors_are_those_of_the_legend() {
         let mut mesh = shapes::cube();

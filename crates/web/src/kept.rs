@@ -67,8 +67,8 @@ impl Kept {
         self.steps.iter().map(report).collect()
     }
 
-    /// Keeps the scene after the next step. The kept scene stays as it is if a later step changes one of its meshes:
-    /// the later step changes a copy of the mesh.
+    /// Keeps the scene after the next step. Later steps do not change this scene: a later step that changes a mesh
+    /// changes a copy of the mesh.
     pub(crate) fn add_scene(&self, scene: &Scene) {
         let mut scenes = self.scenes();
         scenes.after.push(Some(scene.clone()));

@@ -261,7 +261,7 @@ impl Session {
             .collect()
     }
 
-    /// Returns the quantities of the meshes of the last run that [`colors`](Self::colors) can show. Each quantity has a
+    /// Returns the quantities that [`colors`](Self::colors) can show on the meshes of the last run. Each quantity has a
     /// `title`, and the `quantity` as recipes write it.
     pub fn quantities(&self) -> Json {
         let quantities = Quantity::of_scene(&self.scene).into_iter();
@@ -270,7 +270,7 @@ impl Session {
             .collect()
     }
 
-    /// Shows a quantity of the meshes of the last run as colors.
+    /// Returns colors that show a quantity, such as the valence, on the meshes of the last run.
     ///
     /// # Errors
     ///

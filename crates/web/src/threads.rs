@@ -20,8 +20,8 @@ use wasm_bindgen::prelude::*;
 static WAITING: Mutex<Vec<ThreadBuilder>> = Mutex::new(Vec::new());
 static ADDED: Condvar = Condvar::new();
 
-/// Makes the calling worker and `n` other workers the threads of the engine. Blocks until the other workers have called
-/// [`run_thread`].
+/// Creates the thread pool of the engine from the calling worker and `n` other workers. Blocks until the other workers
+/// have called [`run_thread`].
 #[wasm_bindgen]
 pub fn start_threads(n: usize) -> Result<(), JsError> {
     let pool = ThreadPoolBuilder::new()

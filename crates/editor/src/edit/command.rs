@@ -63,12 +63,12 @@ pub enum CommandError {
         /// The problem.
         message: String,
     },
-    /// The scene at the step cursor is not known, because the run has not ended or has failed.
+    /// The scene after the last step before the step cursor is not known, because the run has not ended or has failed.
     #[error(
         "the scene at the step cursor is not known: wait until the run ends or, if the run failed, correct the recipe"
     )]
     NoScene,
-    /// The object is neither a curve nor patches, or does not exist.
+    /// The object does not exist, or is neither a curve nor a set of patches.
     #[error("the scene at the step cursor has no curve and no patches with the name \"{0}\"")]
     NoControlPoints(String),
     /// The text cannot be edited.
@@ -293,13 +293,14 @@ impl Editor {
             .collect())
     }
 
-    /// Inserts the steps of a command after the step cursor, moves the cursor after the new steps, and runs them.
+    /// Inserts the steps of a command at the step cursor, moves the cursor to the position after these steps, and runs
+    /// the recipe.
     ///
     /// # Errors
     ///
     /// Returns [`CommandError`] if the command cannot be applied. The text is then unchanged. The selection of a
-    /// command refers to elements of the scene at the step cursor. If this scene is not known, a command with a
-    /// selection cannot be applied.
+    /// command selects elements of the scene after the last step before the step cursor. If this scene is not known, a
+    /// command with a selection cannot be applied.
     pub fn apply(&mut self, command: &Command) -> Result<(), CommandError> {
         if command.selection.is_some() && self.preview.is_none() && !self.view().is_current {
             return Err(CommandError::NoScene);

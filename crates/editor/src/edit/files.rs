@@ -122,8 +122,8 @@ impl Editor {
         saved
     }
 
-    /// Returns the text of the recipe for the file `path`. In this text, the paths of input files are relative to the
-    /// folder of `path`.
+    /// Returns the text with which the recipe can be saved to the file `path`. In this text, the paths of input files
+    /// are relative to the folder of `path`.
     fn with_moved_inputs(&self, path: &Path) -> Option<String> {
         let rebase = Rebase {
             from: self.document.path().parent()?,

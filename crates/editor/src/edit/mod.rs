@@ -77,11 +77,12 @@ pub struct Editor {
     is_canceled: bool,
     /// The text of a preview, which runs in place of the document's text.
     preview: Option<Arc<str>>,
-    /// The number of steps that the preview inserts at the cursor.
+    /// The number of steps that the preview inserts at the step cursor.
     preview_steps: usize,
     /// The step cursor: the number of steps that precede it in the text.
     cursor: usize,
-    /// The scene that is shown. While the scene at the step cursor is not known, this is an earlier scene.
+    /// The scene that is shown. While the scene after the last step before the step cursor is not known, this is an
+    /// earlier scene.
     shown: Arc<Scene>,
     picked: Option<Picked>,
     /// Whether the scene that is shown has all picked elements. During a preview, some of the picked elements can be
@@ -114,7 +115,7 @@ pub enum OpenError {
 /// The changes since the last call of [`Editor::poll`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Update {
-    /// Whether the scene at the cursor may have changed.
+    /// Whether the scene that the view shows may have changed.
     pub scene: bool,
     /// Whether the state of the run changed.
     pub run: bool,
@@ -127,8 +128,8 @@ pub struct Update {
 pub struct View {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// Whether `scene` is the scene at the step cursor. If the scene at the step cursor is not known, because the run
-    /// has not ended or has failed, `scene` is the last known scene.
+    /// Whether `scene` is the scene after the last step before the step cursor. If that scene is not known, because the
+    /// run has not ended or has failed, `scene` is the last known scene.
     pub is_current: bool,
 }
 
@@ -369,8 +370,8 @@ impl Editor {
         }
     }
 
-    /// Returns the steps of the newest run that come from the step `item` of the text, as a range of indices into the
-    /// steps of the run. During a preview, the run can have more steps than the text. The returned range takes these
+    /// Returns the steps of the newest run that come from the step `item` of the text. The result is a range of indices
+    /// of the run's steps. During a preview, the run can have more steps than the text. The returned range takes these
     /// additional steps into account.
     pub fn steps_of_item(&self, item: usize) -> std::ops::Range<usize> {
         let is_after = item >= self.cursor;
@@ -391,9 +392,9 @@ impl Editor {
         (last, is_known && is_read)
     }
 
-    /// Shows the scene at the step cursor or, if this scene is not known, the last known scene before the cursor. If
-    /// the scene at the step cursor is not known because the recipe has errors, the scene that is shown does not
-    /// change.
+    /// Shows the scene after the last step before the step cursor. If this scene is not known, shows the last known
+    /// scene of an earlier step. But if the scene is not known because the recipe has errors, the scene that is shown
+    /// does not change.
     fn keep_shown(&mut self) {
         let (last, is_known) = self.result();
         let shown = match last {

@@ -127,8 +127,8 @@ impl Editor {
         axes.map(|axis| (map * axis).try_normalize().unwrap_or(axis))
     }
 
-    /// Returns the affine map from the space of an object to the space of the scene. If the scene has several instances
-    /// of the object, returns the map of the first instance.
+    /// Returns the matrix from the space of an object to the space of the scene. If the scene has several instances of
+    /// the object, returns the matrix of the first instance.
     fn placed(&self, object: &str) -> DAffine3 {
         let instances = self.shown.instances();
         let mut all = instances.iter();
@@ -180,8 +180,8 @@ impl Editor {
         }
     }
 
-    /// If the step before the cursor moves the same elements as the new step, returns the index and the movement of the
-    /// step before the cursor.
+    /// If the step before the cursor moves the same elements as the new step, returns the index of that earlier step
+    /// and its movement.
     fn moves_same(&self, new: &[String]) -> Option<(usize, By)> {
         let [new] = new else { return None };
         let step = self.cursor().checked_sub(1)?;

@@ -104,8 +104,8 @@ impl Editor {
     }
 
     /// Whether a thread still searches for the selections that describe the picked elements. If several elements are
-    /// picked, starts the search. In a large mesh, the search takes long. Commands wait for the end of the search. To
-    /// avoid waiting, a window calls this function before it shows a selection.
+    /// picked, starts the search. In a large mesh, the search takes a long time. Commands wait for the end of the
+    /// search. To avoid waiting, a window calls this function before it shows a selection.
     pub fn is_searching(&mut self) -> bool {
         let is_one = self.picked.as_ref().is_some_and(|picked| picked.len() == 1);
         if !is_one && self.first_proposal.is_none() {
@@ -116,7 +116,7 @@ impl Editor {
 
     /// Returns false if no other selection describes the picked elements, or if nothing is picked. Can return true
     /// although no other selection exists, because the selections are computed only when they are requested. In a large
-    /// mesh, this computation takes long.
+    /// mesh, this computation takes a long time.
     pub fn may_have_other_proposal(&self) -> bool {
         match &self.proposals {
             Proposals::Known(proposals) => proposals.len() > 1,
@@ -146,8 +146,8 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// Returns [`PickError`] if the scene has no mesh, if the text is not a selection, or if the selection fails on the
-    /// mesh or selects no elements.
+    /// Returns [`PickError`] if the scene has no mesh or the text is not a selection. Also returns it if the selection
+    /// fails on the mesh, or selects no elements.
     pub fn pick_by_text(&mut self, text: &str, kind: ElementKind) -> Result<(), PickError> {
         let kind = self.picked.as_ref().map_or(kind, Picked::kind);
         let object = if let Some(picked) = &self.picked {

@@ -10,15 +10,15 @@ use super::{CommandError, Editor};
 use crate::text::{self, Outline};
 
 impl Editor {
-    /// Adds expectations about the scene at the step cursor: the numbers of objects, vertices, edges and faces, and the
-    /// Euler characteristic. Also adds `Manifold` and `Closed` if these expectations hold. If the step cursor is not at
-    /// the end of the recipe, the expectations are checked at the cursor. They refer to the step before the cursor by
-    /// its id. If this step has no id, it gets one. Returns the expectations.
+    /// Adds expectations about the scene after the last step before the step cursor: the numbers of objects, vertices,
+    /// edges and faces, and the Euler characteristic. Also adds `Manifold` and `Closed` if these expectations hold. If
+    /// the step cursor is not at the end of the recipe, the expectations are checked directly after the step before the
+    /// cursor. They refer to this step by its id. If this step has no id, it gets one. Returns the expectations.
     ///
     /// # Errors
     ///
-    /// Returns [`CommandError::Text`] if the text has errors. Returns [`CommandError::NoScene`] if the scene at the
-    /// step cursor is not known, or if the cursor is before the first step.
+    /// Returns [`CommandError::Text`] if the text has errors. Returns [`CommandError::NoScene`] if the scene after the
+    /// last step before the step cursor is not known, or if the cursor is before the first step.
     pub fn record_test(&mut self) -> Result<Vec<String>, CommandError> {
         let view = self.view();
         if !view.is_current {

@@ -62,8 +62,8 @@ impl Editor {
     }
 
     /// Sets a parameter of a step, or a part of its value. The path, such as `["edges", "Random", "count"]`, says which
-    /// part is set. If the new value is `None`, the parameter is removed from the text, so that it has its default
-    /// value. Comments and layout stay.
+    /// part is set. If the new value is `None`, the parameter is removed from the text. The parameter then has its
+    /// default value. Comments and layout stay.
     ///
     /// # Errors
     ///

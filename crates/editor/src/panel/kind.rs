@@ -8,7 +8,7 @@ use serde_json::Value as Json;
 use super::parts::{Variant, first_fields};
 use super::{PanelField, panel_fields};
 
-/// The kind of values of a field.
+/// Which values a field can have.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldKind {
     /// A number.
@@ -255,13 +255,13 @@ pub enum FieldValue {
     Integer(i64),
     /// `true` or `false`.
     Bool(bool),
-    /// One of the names of a choice.
+    /// The chosen name, for a kind that allows one of several names.
     Choice(String),
     /// A text, without its quotes.
     Text(String),
-    /// The numbers of a vector.
+    /// A tuple of numbers.
     Vector(Vec<f64>),
-    /// The whole numbers of a tuple.
+    /// A tuple of whole numbers.
     Integers(Vec<i64>),
     /// Any other value as RON.
     Ron(String),

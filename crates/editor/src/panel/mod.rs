@@ -42,7 +42,8 @@ pub struct PanelField {
     pub kind: FieldKind,
     /// The type of the parameter in words, as in the reference of operations.
     pub type_name: String,
-    /// If the parameter is an enumeration, its variants. They are suggested while the user enters a value.
+    /// The variants of the parameter's type, if this type is an enumeration. The variants are suggested while the user
+    /// enters a value.
     pub variants: Vec<VariantDoc>,
     /// The default value as RON. `None` if the parameter is required.
     pub default: Option<String>,

@@ -190,7 +190,7 @@ fn parts_of(fields: &[PanelField], outer: &[String], value: &Value, whole: &str)
 
 impl Part {
     /// Replaces the value of this part with `new`, and returns the new whole value as RON. If `new` is `None`, the part
-    /// is removed from the text, so that it has its default value. Returns `None` if the part cannot be written into
+    /// is removed from the text. The part then has its default value. Returns `None` if the part cannot be written into
     /// the whole value.
     pub fn in_whole(&self, whole: &str, new: Option<&str>) -> Option<String> {
         if self.path.is_empty() {

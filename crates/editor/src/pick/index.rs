@@ -32,7 +32,7 @@ struct Entry {
 }
 
 impl Indexes {
-    /// Creates an empty set of indexes.
+    /// Creates an empty set of spatial indexes.
     pub fn new() -> Self {
         Self::default()
     }

@@ -63,8 +63,8 @@ pub struct Hit {
     /// The element. If the mode is [`PickMode::HalfEdge`], the element is a half-edge.
     pub element: Element,
     /// The half-edge that belongs to the element. For an edge, this is the half-edge on the face under the cursor. For
-    /// a face, this is the half-edge of the face that is nearest to the pixel. `None` if the element is a vertex that
-    /// has no edges.
+    /// a face, this is the side of the face that is nearest to the pixel, as a half-edge. `None` if the element is a
+    /// vertex that has no edges.
     pub half_edge: Option<HalfEdgeId>,
     /// The face under the cursor. `None` if no face is under the cursor.
     pub face: Option<FaceId>,
@@ -150,7 +150,7 @@ impl<'s> Target<'s> {
         self.index.triangle(hit.triangle).face
     }
 
-    /// Returns the half-edge of a face that is nearest to a pixel in the view.
+    /// Finds the side of a face that is nearest to a pixel of the view, and returns the half-edge of this side.
     fn nearest_side(&self, face: FaceId, pixel: DVec2) -> Option<HalfEdgeId> {
         let sides = self
             .mesh
@@ -196,8 +196,9 @@ struct Search<'a, 's> {
 }
 
 impl Search<'_, '_> {
-    /// Searches a face and the faces around it. Adds the vertices and edges of these faces that are near the pixel. If
-    /// the viewer sees the front of the given face, faces that show their back are skipped, and the other way round.
+    /// Looks at a face and the faces around it. Adds those vertices and edges of these faces that are near the pixel.
+    /// If the viewer sees the front of the given face, skips faces that are seen from behind. If the viewer sees the
+    /// back of the given face, skips faces that are seen from the front.
     fn around(&mut self, at: usize, face: FaceId) {
         let target = &self.targets[at];
         let (_, direction) = target.view.ray(self.pixel);

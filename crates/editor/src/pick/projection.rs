@@ -1,14 +1,14 @@
-//! The map between the scene and the pixels of the view.
+//! Converts points of the scene to pixels of the view, and back.
 
 use glam::{DAffine3, DMat4};
 use mesh::{DVec2, DVec3};
 
-/// The map between the scene and the pixels of the view. Pixel coordinates start at the upper left corner of the view,
-/// and y points down.
+/// Converts points of the scene to pixels of the view, and back. Pixel coordinates start at the upper left corner of
+/// the view, and y points down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// The map from scene space to clip space. In clip space, x and y run from -1 to 1, y points up, and z runs from 0
-    /// (near) to 1 (far).
+    /// The matrix from scene space to clip space. In clip space, x and y run from -1 to 1, y points up, and z runs from
+    /// 0 (near) to 1 (far).
     to_clip: DMat4,
     from_clip: DMat4,
     size: DVec2,
@@ -31,7 +31,8 @@ impl Projection {
         self.size
     }
 
-    /// Returns the projection for points in the space of an object. `placed` is the map from this space to the scene.
+    /// Returns the projection for points in the space of an object. `placed` is the matrix from this space to the space
+    /// of the scene.
     #[must_use]
     pub fn of_object(&self, placed: DAffine3) -> Self {
         Self::new(self.to_clip * DMat4::from(placed), self.size)

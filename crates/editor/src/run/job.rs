@@ -190,8 +190,8 @@ fn take_known(state: &mut RunState, keys: &StepKeys, snapshots: &mut Snapshots) 
     known
 }
 
-/// Adds to the state the results of the expectations that a run has checked. `is_whole` says whether the run has
-/// completed all of its steps.
+/// Writes the results of the checked expectations of a run into `state`. `is_whole` says whether the run has completed
+/// all of its steps.
 fn take_verdicts(
     state: &mut RunState,
     recipe: &Recipe,

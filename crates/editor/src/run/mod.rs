@@ -83,9 +83,9 @@ pub struct Progress {
     pub step: String,
     /// The current computation.
     pub task: String,
-    /// The number of parts of the computation that are done.
+    /// How many parts of the computation are done.
     pub done: u64,
-    /// The total number of parts of the computation.
+    /// How many parts the computation has.
     pub total: u64,
 }
 

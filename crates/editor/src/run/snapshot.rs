@@ -33,7 +33,7 @@ pub(super) struct Snapshots {
 }
 
 impl Snapshots {
-    /// Begins a run. Snapshots that are used from now on count as newer than all others.
+    /// Begins a run. Snapshots that this run uses count as newer than snapshots that were last used in earlier runs.
     pub(super) fn tick(&mut self) {
         self.clock += 1;
     }

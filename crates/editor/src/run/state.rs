@@ -57,8 +57,8 @@ pub enum Status {
 /// A step of the run.
 #[derive(Clone, Debug)]
 pub struct StepState {
-    /// The label of the step. The label consists of the calls and repetitions around the step, and the id of the step.
-    /// If the step has no id, the label ends with the name of its operation.
+    /// The label of the step: the calls and repetitions that contain the step, and then the id of the step or, if the
+    /// step has no id, the name of its operation.
     pub label: String,
     /// The name of the operation.
     pub name: String,
@@ -138,9 +138,9 @@ impl RunState {
         start..self.steps.partition_point(|step| step.item <= item)
     }
 
-    /// Returns the last known result among the steps that come from the first `n` entries of the list `steps`. Also
-    /// returns whether the results of all steps from the first `n` entries are known. Returns `None` instead of a
-    /// result if the first step has no known result.
+    /// Looks at the steps of the run that come from the first `n` entries of the recipe's list `steps`. Returns the
+    /// result of the last of these steps before the first step whose result is not known; `None` if there is no such
+    /// step. Also returns whether the results of all these steps are known.
     pub(crate) fn result_after(&self, n: usize) -> (Option<&Snapshot>, bool) {
         let end = self.steps.partition_point(|step| step.item < n);
         let steps = &self.steps[..end];

@@ -10,7 +10,8 @@ pub struct Picked {
     pub object: String,
     /// The elements.
     pub elements: Selected,
-    /// The chosen half-edge, if there is one. The view draws it as an arrow. Keys walk from it to other half-edges.
+    /// The chosen half-edge, if there is one. The view draws it as an arrow. The user can walk from this half-edge to
+    /// other half-edges with keys.
     pub half_edge: Option<HalfEdgeId>,
 }
 
@@ -96,7 +97,8 @@ impl Picked {
         }
     }
 
-    /// Removes the elements of another set of the same object and kind.
+    /// Removes the elements of another set. Does nothing if the other set belongs to another object, or has another
+    /// kind of elements.
     pub fn remove(&mut self, other: &Self) {
         if self.object != other.object {
             return;

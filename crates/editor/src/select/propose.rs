@@ -1,9 +1,9 @@
 //! Finds the selections of recipes that describe the picked elements.
 //!
 //! A selection describes the picked elements if it selects exactly these elements. Candidates are tried in this order:
-//! `All`, tags, the boundary, selections for the kind of the picked elements such as `EdgeLoop` or `Material`, and
-//! lists of indices. If a single element is picked, its index is tried first. Each candidate is evaluated on the mesh,
-//! and is kept if it selects exactly the picked elements.
+//! `All`, tags, the boundary, selections that exist only for the kind of the picked elements (such as `EdgeLoop` for
+//! edges), and lists of indices. If a single element is picked, its index is tried first. Each candidate is evaluated
+//! on the mesh, and is kept if it selects exactly the picked elements.
 
 use mesh::{Domain, EdgeId, FaceId, Id, MATERIAL, Mesh, Values, VertexId};
 use op::{ElementKind, Selected};
@@ -14,7 +14,7 @@ use scene::{Object, Scene};
 use super::Picked;
 use crate::panel::number;
 
-/// The maximum number of picked elements that are described by a list of their indices.
+/// A selection that lists indices is proposed only if at most this many elements are picked.
 const MAX_LISTED: usize = 8;
 
 /// A selection that selects exactly the picked elements.
@@ -62,7 +62,7 @@ pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
 }
 
 /// If one element is picked, returns the first selection that [`propose`] would return. The other elements of the mesh
-/// are not visited, because this would take long in a large mesh. Returns `None` if several elements are picked.
+/// are not visited, because this would take a long time in a large mesh. Returns `None` if several elements are picked.
 pub(crate) fn propose_one(scene: &Scene, picked: &Picked) -> Option<Proposal> {
     let object = scene.object(&picked.object)?;
     let mesh = object.as_mesh()?;
@@ -86,8 +86,8 @@ fn means(text: &str, scene: &Scene, object: &Object, picked: &Picked, stream: &s
 /// A candidate: a selection that must still be tested, because it may select other elements than the picked ones.
 struct Candidate {
     text: String,
-    /// Whether the selection is written without `Expect`. A selection needs no `Expect` if it selects all elements, or
-    /// if it fails anyway when its elements do not exist.
+    /// Whether the selection is written without `Expect`. `All` needs no `Expect`. A list of indices needs no `Expect`
+    /// either, because it fails if one of its elements does not exist.
     is_closed: bool,
 }
 
@@ -341,7 +341,7 @@ fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
         .abs()
         .max(if low.is_finite() { low.abs() } else { 0.0 });
     if !low.is_finite() {
-        // All elements that have a value are picked.
+        // No element outside the picked elements has a value.
         return None;
     }
     (high - low > 1e-6 * scale).then(|| short_between(low, high))
@@ -363,9 +363,9 @@ fn short_between(low: f64, high: f64) -> String {
     number(middle)
 }
 
-/// The selection `Expand` can start at the first picked face, and spread over all edges up to an angle. Returns an
-/// angle with which it selects the picked faces. The angle is greater than all angles between neighboring picked faces,
-/// and less than all angles at the border of the picked faces.
+/// The selection `Expand` can start at the first picked face, and spread over all edges whose angle is at most a limit.
+/// Returns a suitable limit. The limit is greater than all angles between neighboring picked faces, and less than all
+/// angles at the border of the picked faces.
 fn spread_angle(mesh: &Mesh, picked: &[bool]) -> Option<String> {
     let angle = mesh.dihedral_angles();
     let (mut inside, mut border) = (0.0_f64, f64::INFINITY);

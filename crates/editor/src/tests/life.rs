@@ -347,7 +347,7 @@ fn a_run_can_be_canceled_and_a_newer_text_wins() {
     assert_eq!(editor.view().scene.objects().len(), 1);
     assert!(editor.undo());
     settled(&mut editor);
-    // A change of the text cancels a run whose step is still waiting.
+    // If the text changes while a step is still waiting, the run is canceled.
     editor.apply(&wait).unwrap();
     editor.wait(Duration::from_millis(50));
     let end = editor

@@ -42,7 +42,7 @@ fn every_example_is_written_by_the_panel_of_its_operation() {
         assert_eq!(plain(&panel.step_text()), plain(entry.example));
         let again = Panel::of_step(&registry, &parsed.value, entry.example).unwrap();
         assert_eq!(again.step_text(), panel.step_text());
-        // If the value of a widget is written as text and read again, it is the same.
+        // A widget's value that is written as text and read again does not change.
         for field in &panel.fields {
             assert!(
                 !field.doc.is_empty() && !field.type_name.is_empty(),

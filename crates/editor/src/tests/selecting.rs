@@ -90,8 +90,8 @@ fn a_proposal_means_exactly_the_picked_elements_and_fails_closed() {
     let [v, w] = mesh.edge_vertices(inner).map(mesh::VertexId::index);
     let loops = text(&format!("EdgeLoop(Between({v}, {w}))"), ElementKind::Edges);
     assert!(loops.contains("EdgeLoop("), "{loops}");
-    // If only a long list of indices would select the elements, the proposal instead adds a step that tags the
-    // elements, and selects them by this tag.
+    // If only a long list of indices would select the elements, the proposal is a tag instead: a new step tags the
+    // elements, and the selection uses this tag.
     for (kind, operation) in [
         (ElementKind::Vertices, "TagVertices"),
         (ElementKind::Edges, "TagEdges"),

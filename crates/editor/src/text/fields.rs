@@ -15,7 +15,8 @@ pub(crate) fn field_value<'v>(value: &'v Value, path: &[String]) -> Option<&'v V
     Some(place.value)
 }
 
-/// Sets the value at a path to `new`. If `new` is `None`, removes the field, so that it has its default value.
+/// Sets the value at a path to `new`. If `new` is `None`, removes the field from the text. The field then has its
+/// default value.
 ///
 /// A path leads into a value from the outside, for example `["edges", "Random", "count"]`. Each entry is the name of a
 /// field or a variant, a key of a map, or the index of an item. If the text does not have the field yet, the field is
@@ -52,13 +53,12 @@ pub(crate) fn set_field(
     }
 }
 
-/// A value on the path. `in_variant` says whether the name of the value's variant was already used as a part of the
-/// path.
+/// A value on the path. `in_variant` says whether the path has already named the variant of the value.
 #[derive(Clone, Copy)]
 struct Place<'v> {
     value: &'v Value,
     in_variant: bool,
-    /// The struct that has the value as a field.
+    /// The struct that contains the value, if the value belongs to a field of a struct.
     holder: Option<&'v Value>,
 }
 

@@ -53,7 +53,7 @@ pub(crate) fn remove_step(text: &str, outline: &Outline, step: usize) -> Result<
     Ok(remove_entry(text, &entries, step))
 }
 
-/// Inserts a copy of a step after the step. If the step has an id, the copy gets a new id.
+/// Inserts a copy of a step directly after that step. If the step has an id, the copy gets a new id.
 pub(crate) fn duplicate_step(
     text: &str,
     outline: &Outline,
@@ -118,7 +118,7 @@ pub(crate) fn move_step(
     let block = format!("{}{}", &text[start..step.end], ",");
     let removed = Span::new(start.saturating_sub(1), end.end);
     // The step moves to the line after the step that will precede it. If it becomes the first step, it moves before the
-    // comments of the current first step.
+    // current first step and the comments above that step.
     let mut edits = vec![(removed, String::new())];
     if let Some(before) = target.checked_sub(1) {
         let before_tail = tail(text, entries[before].end);

@@ -75,7 +75,7 @@ pub(crate) struct Parts {
     pub(crate) palette: Option<Palette>,
     /// An operation whose parameters are being chosen.
     pub(crate) draft: Option<Draft>,
-    /// The edits of a step that are played in the view.
+    /// Plays the edits of a step in the view. `None` if no step is played.
     pub(crate) player: Option<Player>,
     /// The parameter whose slider is dragged: its step (`None` for a parameter of the recipe), its name, and its value.
     pub(crate) dragged: Option<(Option<usize>, String, String)>,
@@ -83,7 +83,7 @@ pub(crate) struct Parts {
     pub(crate) shows_information: bool,
     pub(crate) notice: Option<Notice>,
     pub(crate) files: files::Files,
-    /// Whether dialogs of the system ask for paths.
+    /// Whether the program asks for paths with dialogs of the system.
     pub(crate) has_dialogs: bool,
     /// A path that the user is typing in the window.
     pub(crate) prompt: Option<Prompt>,
@@ -105,7 +105,7 @@ impl App {
         Self::with(ctx, gpu, start.open())
     }
 
-    /// Creates the contents of a window for an editor that was created before the window.
+    /// Creates the contents of a window. `opened` has the editor, which was created before the window.
     pub fn with(ctx: &egui::Context, gpu: Option<&egui_wgpu::RenderState>, opened: Opened) -> Self {
         theme::apply(ctx);
         let Opened {
@@ -163,7 +163,7 @@ impl App {
         self.parts.view.loss.clone()
     }
 
-    /// Returns the editor, mutably.
+    /// Returns a mutable reference to the editor.
     pub fn editor_mut(&mut self) -> &mut Editor {
         &mut self.parts.editor
     }
@@ -174,7 +174,7 @@ impl App {
         self.parts.view.pixel_of(point).map(|at| at.to_array())
     }
 
-    /// Returns the settings that determine how the scene is drawn, mutably.
+    /// Returns a mutable reference to the settings that determine how the scene is drawn.
     pub fn look_mut(&mut self) -> &mut crate::gpu::Look {
         &mut self.parts.view.look
     }

@@ -18,8 +18,8 @@ impl Parts {
     pub(super) fn view_event(&mut self, event: ViewEvent, scene: &Scene) {
         let picks = matches!(event, ViewEvent::Click { .. } | ViewEvent::Area { .. });
         if picks && self.draft.is_some() && self.editor.is_preview() {
-            // The new step acts on elements of the scene before this step. Therefore elements of the preview cannot be
-            // picked, and the preview ends.
+            // The new step acts on elements of the scene before this step. Therefore the preview ends here: elements of
+            // the preview cannot be picked for the step.
             self.editor.end_preview();
             self.inform(
                 "The view now shows the scene before the new step: pick the elements here.",
@@ -172,7 +172,7 @@ impl Parts {
             let Selected::Edges(list) = &picked.elements else {
                 return all;
             };
-            // Edges in the loop or ring of an earlier edge are skipped.
+            // If an edge is in the loop or ring of an earlier edge, the edge is skipped.
             let mut rest = list.clone();
             while let Some(e) = rest.first() {
                 let [v, w] = mesh.edge_vertices(*e).map(mesh::VertexId::index);

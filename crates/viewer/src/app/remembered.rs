@@ -118,7 +118,7 @@ impl App {
     }
 }
 
-/// Returns the container of steps and text, and the container of the columns.
+/// Returns two containers of tiles: the left side with the steps and the text, and the row of all columns.
 fn containers(tree: &Tree<Pane>) -> Option<[TileId; 2]> {
     let left = tree.tiles.parent_of(tree.tiles.find_pane(&Pane::Steps)?)?;
     let columns = tree.tiles.parent_of(tree.tiles.find_pane(&Pane::View)?)?;
@@ -132,7 +132,7 @@ fn linear(tree: &Tree<Pane>, id: TileId) -> Option<&Linear> {
     }
 }
 
-/// Returns the fraction of a container that each of its tiles fills, rounded to three decimals.
+/// Returns the size of each tile in a container, as a fraction of the size of the container, rounded to three decimals.
 fn shares(tree: &Tree<Pane>, id: TileId) -> Option<Vec<f32>> {
     let linear = linear(tree, id)?;
     let all: Vec<f32> = linear

@@ -18,7 +18,8 @@ pub struct Start {
     pub path: Option<PathBuf>,
     /// The folder for the list of recent files and the recovery of texts. If omitted, nothing is stored.
     pub state_folder: Option<PathBuf>,
-    /// Whether dialogs of the system ask for paths of files. If false, a text field in the window asks for the paths.
+    /// Whether the program asks for paths of files with dialogs of the system. If false, a text field in the window
+    /// asks for the paths.
     pub has_dialogs: bool,
 }
 

@@ -74,7 +74,8 @@ pub(super) struct PatchVertex {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct LineInstance {
-    /// The positions of the ends of the line, relative to the center of the object. Equal for a dot.
+    /// The positions of the two ends of the line, relative to the center of the object. The two positions of a dot are
+    /// equal.
     pub ends: [[f32; 3]; 2],
     /// Four numbers: the width in pixels, the opacity where the line is hidden, an offset towards the camera in pixels,
     /// and an unused number. The line is moved towards the camera by this offset plus 3 pixels.
@@ -130,8 +131,8 @@ fn byte(x: f32) -> u8 {
     (x.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// Converts a part of a drawing. If the part is the surface of a mesh, `mesh` is this mesh. The mesh shows whether a
-/// side of a triangle is an edge of the mesh or a diagonal of a polygon.
+/// Converts a part of a drawing to surfaces for the graphics card. If the part is the surface of a mesh, `mesh` is this
+/// mesh. The mesh shows whether a side of a triangle is an edge of the mesh or a diagonal of a polygon.
 pub(super) fn surfaces(part: &Part, mesh: Option<&Mesh>, center: DVec3) -> Vec<Surface> {
     split(part, mesh, center, [CHUNK, MAX_POINTS])
 }
@@ -177,7 +178,7 @@ fn split(
     renumbered.collect()
 }
 
-/// Maps the point indices of a part to the point indices of a chunk.
+/// Converts the point indices of a part to the point indices of a chunk.
 struct Renumbering {
     local: Vec<u32>,
     /// For each entry of `local`, the number of the chunk for which the entry is valid.
@@ -368,7 +369,7 @@ fn encode_color(color: [f32; 3]) -> u32 {
 mod tests {
     use super::*;
 
-    /// Decodes as the shader does.
+    /// Decodes a direction, as the shader does.
     fn decode(word: u32) -> DVec3 {
         let part = |bits: u32| {
             let [low, high, ..] = bits.to_le_bytes();

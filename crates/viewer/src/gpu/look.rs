@@ -67,8 +67,8 @@ impl Default for Look {
 }
 
 impl Look {
-    /// Shows numbers as colors, without the edges, which would cover the colors. If `None`, shows the colors of the
-    /// materials with the edges again.
+    /// Shows numbers as colors, without the edges, which would cover the colors. With `None`, shows the colors of the
+    /// materials and the edges again.
     pub(crate) fn set_color_by(&mut self, color_by: Option<ColorBy>) {
         let (before, after) = if color_by.is_some() {
             (Wireframe::Shaded, Wireframe::None)

@@ -29,8 +29,8 @@ pub(super) struct Key {
 
 impl Key {
     /// Whether the buffers of the two objects can differ only because of their geometry. Both objects must have the
-    /// same color and style. Neither object may have seams, materials or colors that show numbers, because the buffers
-    /// would depend on them too.
+    /// same color and style. Both objects must be without seams, without materials and without colors that show
+    /// numbers, because the buffers also depend on these.
     pub(super) fn looks_like(&self, other: &Self) -> bool {
         self.color == other.color
             && self.style == other.style
@@ -45,7 +45,7 @@ impl Key {
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
-        // Meshes are compared by address, because comparing their contents takes long.
+        // Meshes are compared by address, because comparing their contents takes a long time.
         let same_geometry = match (&self.geometry, &other.geometry) {
             (Geometry::Mesh(a), Geometry::Mesh(b)) => Arc::ptr_eq(a, b),
             (a, b) => a == b,
@@ -59,7 +59,7 @@ impl PartialEq for Key {
     }
 }
 
-/// Whether two colorings are equal, including values that are NaN.
+/// Whether two colorings are equal. Values are compared bit by bit, so that NaN equals NaN.
 fn same_coloring(a: Option<&Coloring>, b: Option<&Coloring>) -> bool {
     match (a, b) {
         (Some(a), Some(b)) => {
@@ -92,7 +92,7 @@ impl Key {
     }
 }
 
-/// Returns the style of the crate `render` for an object.
+/// Returns the style with which the crate `render` must draw an object.
 fn style(look: &Look, geometry: &Geometry) -> Style {
     let line = |color: Color, width: f64, hidden: f64| Lines {
         width,
@@ -264,8 +264,8 @@ pub(super) fn upload(
     Ok((uploaded, missing))
 }
 
-/// Returns a scene in which the object has this default color. The default color of an object depends on its place in
-/// the list of objects. Therefore, empty objects are put before the object.
+/// Returns a scene with the given object, in which this object has the given default color. The default color of an
+/// object depends on its place in the list of objects. Therefore, empty objects are put before the given object.
 fn alone(object: &Object, color: Color) -> Scene {
     let mut scene = Scene::new();
     let index = PALETTE.iter().position(|&c| c == color).unwrap_or(0);

@@ -64,7 +64,7 @@ pub(super) fn patch(queue: &wgpu::Queue, uploaded: &Uploaded, new: &Key) -> bool
 }
 
 /// Returns the faces of those half-edges that differ between the two meshes, in the order of the face ids. All returned
-/// faces are triangles of both meshes. Returns `None` if the meshes differ in other ways.
+/// faces are triangles in both meshes. Returns `None` if the meshes differ in other ways.
 fn changed_faces(a: &Mesh, b: &Mesh) -> Option<Vec<FaceId>> {
     let is_same_size = a.is_dense()
         && b.is_dense()

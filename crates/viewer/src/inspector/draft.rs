@@ -81,8 +81,8 @@ impl Draft {
                 Some(Change::Set(value) | Change::Drag(value)) => {
                     self.panel.set(&of.name, Some(&value));
                 }
-                // The default is set as a value here. Without a value, the parameter would take the picked elements
-                // again.
+                // The step sets the parameter to its default value. A parameter that the step does not set would take
+                // the picked elements again.
                 Some(Change::Reset)
                     if picked.as_ref().is_some_and(|(name, _)| of.name == *name) =>
                 {

@@ -2,7 +2,7 @@
 
 use eframe::egui::{ColorImage, Context, Id, Image, TextureHandle, TextureOptions, Ui, Vec2};
 
-/// The name of an operation, and the PNG files of an example before and after the operation.
+/// The name of an operation, and two PNG files: an example mesh before the operation, and after it.
 type Pictures = (&'static str, Option<&'static [u8]>, Option<&'static [u8]>);
 
 const PICTURES: &[Pictures] = &include!(concat!(env!("OUT_DIR"), "/pictures.rs"));

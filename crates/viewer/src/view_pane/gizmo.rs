@@ -172,7 +172,8 @@ impl ViewPane {
         self.drag.is_some()
     }
 
-    /// Returns a drag of the handle at a pixel.
+    /// Finds the handle at a pixel, and returns a new drag of this handle. Returns `None` if no handle is near the
+    /// pixel.
     fn handle_at(&self, gizmo: Gizmo, at: DVec2) -> Option<Drag> {
         let (length, lines) = self.axis_lines(gizmo)?;
         let handles = self.handles(gizmo, length, &lines);
@@ -322,7 +323,7 @@ impl ViewPane {
     }
 }
 
-/// Draws an axis with its name: with a round end for moving, with a square end for scaling.
+/// Draws an axis and its name. The end of the axis is a square if the handle scales, and a circle otherwise.
 fn arrow(ui: &Ui, [p, q]: [Pos2; 2], stroke: Stroke, name: &str, tool: Tool) {
     let painter = ui.painter();
     painter.line_segment([p, q], stroke);

@@ -105,7 +105,7 @@ impl ViewPane {
                 removes: modifiers.alt,
             });
         }
-        // While a mouse button is down, no element under the cursor is searched for, so that turning a large scene
+        // While a mouse button is down, the element under the cursor is not looked for, so that turning a large scene
         // stays fast.
         let is_down = ui.input(|input| input.pointer.any_down());
         if response.contains_pointer() && !is_down {
@@ -145,7 +145,7 @@ impl ViewPane {
         }
     }
 
-    /// Returns the map from the scene to positions in the view.
+    /// Returns the projection that converts points of the scene to positions in the view.
     pub(super) fn projection(&self) -> Projection {
         let extent = self.gpu.as_ref().and_then(|gpu| gpu.painter.extent());
         let (center, radius) = extent.unwrap_or((self.camera.target, self.camera.distance));

@@ -9,7 +9,7 @@ use eframe::wgpu;
 pub(crate) struct Loss {
     /// Why the device is lost.
     reason: Arc<OnceLock<String>>,
-    /// Errors of a device that still works, such as too little memory.
+    /// Errors after which the device still works, for example if it had too little memory.
     errors: Arc<Mutex<Vec<String>>>,
 }
 

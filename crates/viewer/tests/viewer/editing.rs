@@ -249,7 +249,7 @@ fn an_unsaved_text_is_offered_after_a_crash() {
     window.press(Key::L);
     let lost = window.text();
     let Window { harness, folder } = window;
-    // `forget` ends the window without the events that closing a window sends. A crash has the same effect.
+    // `forget` ends the window without the events that are sent when a window is closed. A crash has the same effect.
     std::mem::forget(harness);
     let start = Start {
         path: None,

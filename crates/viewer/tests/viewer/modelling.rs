@@ -286,7 +286,7 @@ fn the_played_edits_are_saved_as_an_animation() {
     ] {
         window.harness.get_by_label(name).click();
         window.settle();
-        // The dialog suggests a file in the folder of the recipe. The key accepts this file.
+        // The dialog suggests a file in the folder of the recipe. The Enter key accepts this file.
         window.press(Key::Enter);
         let file = window.path(file);
         let end = Instant::now() + Duration::from_mins(1);

@@ -92,7 +92,7 @@ fn the_edits_of_a_step_are_played_forwards_and_backwards() {
         .set_value_accesskit(5.0);
     window.settle();
     window.harness.get_by_label("Play").click();
-    // The slider has set the player to the last edit. The button Play therefore restarts at the first edit, and stops
+    // The slider has moved the player to the last edit. The button Play therefore restarts at the first edit, and stops
     // after the last edit.
     for _ in 0..80 {
         window.harness.run_steps(8);

@@ -247,8 +247,9 @@ impl Editor {
         }
     }
 
-    /// Whether a step of the text makes local edits that [`play`](Self::play) can show one by one. The parameters of
-    /// the step are not checked, except the number of levels, so [`play`](Self::play) can still return `None`.
+    /// Whether a step of the text makes local edits that [`play`](Self::play) can show one by one. Does not check the
+    /// parameters of a step that flips, splits or collapses edges, so [`play`](Self::play) can still return `None` for
+    /// this step.
     pub fn has_edits(&self, step: usize) -> bool {
         let operation = self.outline().steps.get(step).map(|text| &*text.name);
         operation.is_some_and(|name| match Edit::of(name) {
@@ -259,8 +260,9 @@ impl Editor {
 
     /// Returns the edits of a step of the text, and the name of the mesh that they change. If the step has `on`, its
     /// edits are played on the first mesh in `on`. If the step has no `on`, its edits are played on the mesh with the
-    /// picked elements or, if nothing is picked, on the first mesh. Returns `None` if the scene before the step is not
-    /// known, or if the step cannot be played (see [`Play::of_step`] and [`Play::of_loop_level`]).
+    /// picked elements. If nothing is picked either, they are played on the first mesh. Returns `None` if the scene
+    /// before the step is not known, or if the step cannot be played (see [`Play::of_step`] and
+    /// [`Play::of_loop_level`]).
     pub fn play(&self, step: usize) -> Option<(String, Play)> {
         let text = self.outline().steps.get(step)?;
         if text.name == LOOP {

@@ -75,7 +75,7 @@ impl Side {
     }
 }
 
-/// A camera that looks at a point of the scene, with perspective or with a parallel projection.
+/// A camera that looks at a point of the scene. Its projection is either a perspective or a parallel projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// The point in the middle of the picture, in scene units.

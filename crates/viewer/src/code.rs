@@ -8,7 +8,7 @@ use ron_tree::{Lexer, TokenKind};
 
 use crate::theme::Colors;
 
-/// A part of a text that is underlined.
+/// An underlined part of a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Mark {
     /// The bytes of the text.

@@ -175,7 +175,7 @@ fn view_menu(ui: &mut Ui, view: &mut ViewPane) {
     });
 }
 
-/// Changes the view by the keys 0 to 7.
+/// Changes the view when one of the keys 0 to 7 is pressed.
 fn view_keys(ui: &Ui, view: &mut ViewPane) {
     let is_typing = ui.ctx().text_edit_focused();
     let digits = [

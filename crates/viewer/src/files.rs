@@ -113,7 +113,7 @@ fn finish(parts: &mut Parts, result: Result<(), impl Display>, path: &Path) {
     }
 }
 
-/// Asks the user whether the unsaved changes are saved or discarded.
+/// Asks the user whether to save or discard the unsaved changes.
 pub(crate) fn question(ctx: &Context, parts: &mut Parts) {
     let Some(pending) = parts.pending.clone() else {
         return;

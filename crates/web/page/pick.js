@@ -40,7 +40,7 @@ export function joining(mesh, vertices) {
     return null;
 }
 
-/// Returns the indices of the triangles of a face, which are consecutive.
+/// Returns the indices of the triangles of a face. These indices are consecutive.
 export function faceTriangles(mesh, face, inside = mesh.faces.indexOf(face)) {
     let first = inside;
     while (mesh.faces[first - 1] === face) {

@@ -31,7 +31,7 @@ export function* tokens(text) {
 
 /// Returns the brackets around a position, from the outside in: `{ open, name, start, field, index, fields }`. `name`
 /// is the name before a parenthesis, and `field` is the name of the field that contains the position. `index` is the
-/// index of the item that contains the position, starting at 0. `fields` has the names of all fields before the
+/// index of the item that contains the position, counted from 0. `fields` has the names of all fields before the
 /// position. Returns `null` inside a string or a comment.
 export function around(text, position) {
     const stack = [{ open: "", name: null, start: 0, field: null, index: 0, fields: [] }];
@@ -67,7 +67,7 @@ export function around(text, position) {
 }
 
 /// Returns where another step can be added to the list of steps. `end` is the position after the last step and its
-/// comma, `comma` says whether the last step has a comma, and `empty` says whether the list has no steps. Returns
+/// comma. `comma` says whether the last step has a comma, and `empty` says whether the list has no steps. Returns
 /// `null` if the recipe has no list of steps.
 export function endOfSteps(text) {
     let depth = 0;

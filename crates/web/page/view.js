@@ -8,7 +8,7 @@ import { Marks } from "./marks.js";
 /// Colors of the objects, which differ in hue and in lightness.
 const COLORS = [0x8fa8c8, 0xd9b26f, 0x8fc0a0, 0xc98f8f, 0xb3a0cf, 0xb8b8a8];
 
-/// The maximum number of instances of a mesh that are drawn. Each instance makes drawing slower.
+/// At most this many instances of a mesh are drawn. Each instance makes drawing slower.
 export const MAX_INSTANCES = 1000;
 
 /// The vertical field of view in degrees, the same as in the pictures of recipes.
@@ -36,7 +36,7 @@ export class View {
     /// the click adds to the picked elements.
     onPick = () => {};
     kind = "face";
-    /// Whether a click adds to the selection without Shift.
+    /// Whether a click adds to the picked elements even without Shift.
     several = false;
 
     /// Creates the view. Throws if the browser has no WebGL.

@@ -1,5 +1,5 @@
-// Owns the engine. The page sends `{ id, call, args }` and receives `{ id, value }` or `{ id, error, fatal }`, and
-// `{ event }` during a run. The first message has the compiled engine and the files.
+// Owns the engine. The page sends `{ id, call, args }`, and receives `{ id, value }` or `{ id, error, fatal }`. During
+// a run, the page also receives messages `{ event }`. The first message has the compiled engine and the files.
 import { Session } from "meshwright";
 import { inPage } from "./messages.js";
 
@@ -40,7 +40,7 @@ onmessage = async ({ data: { id, call, args } }) => {
         const value = await calls[call](...args);
         postMessage({ id, value }, buffers(value));
     } catch (error) {
-        // After a trap the engine cannot be used again.
+        // After a trap, the engine cannot be used again.
         postMessage({ id, error: String(error.message ?? error), fatal: error instanceof WebAssembly.RuntimeError });
     }
 };

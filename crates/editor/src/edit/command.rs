@@ -33,7 +33,8 @@ pub struct SelectionText {
     pub kind: ElementKind,
     /// The selection as RON.
     pub text: String,
-    /// A step that adds the tag that the selection uses. This step must be inserted before the command's step.
+    /// If the selection uses a new tag, the step that gives this tag to the elements. This step must be inserted before
+    /// the command's step.
     pub before: Option<String>,
     /// The name of the object.
     pub object: String,

@@ -222,7 +222,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Adds all vertices and edges of the mesh that are near the pixel in the view.
+    /// Adds those vertices and edges of the mesh that are near the pixel in the view.
     fn near(&mut self, at: usize) {
         let target = &self.targets[at];
         let (view, pixel) = (target.view, self.pixel);

@@ -16,7 +16,7 @@ pub struct Projection {
 
 impl Projection {
     /// Creates a projection. `to_clip` is the matrix from scene space to clip space, and `size` is the size of the view
-    /// in pixels. In clip space, x and y run from -1 to 1, y points up, and z runs from 0 at the near plane to 1 at the
+    /// in pixels. In clip space, x and y run from -1 to 1, and y points up. z runs from 0 at the near plane to 1 at the
     /// far plane.
     pub fn new(to_clip: DMat4, size: DVec2) -> Self {
         Self {

@@ -131,8 +131,8 @@ impl RunState {
         matches!(self.status, Status::Running(_))
     }
 
-    /// Returns the steps of the run that come from the entry `item` of the list `steps` in the text, as a range of
-    /// indices. The range is empty if no steps come from the entry, for example because it is disabled.
+    /// Returns those steps of the run that come from the entry `item` of the recipe's list `steps`. The result is a
+    /// range of indices. The range is empty if no steps come from the entry, for example because it is disabled.
     pub fn steps_of(&self, item: usize) -> std::ops::Range<usize> {
         let start = self.steps.partition_point(|step| step.item < item);
         start..self.steps.partition_point(|step| step.item <= item)

@@ -116,7 +116,7 @@ fn touching(mesh: &Mesh, kind: ElementKind, is_marked: impl Fn(VertexId) -> bool
     }
 }
 
-/// Returns all elements of the mesh that have the kind of the given elements but are not among them.
+/// Returns all elements of the mesh that have the same kind as the given elements, but are not among them.
 fn complement(mesh: &Mesh, elements: &Selected) -> Selected {
     match elements {
         Selected::Vertices(list) => Selected::Vertices(

@@ -116,7 +116,7 @@ impl Picked {
             .filter(|&h| self.contains(Element::HalfEdge(h)));
     }
 
-    /// Returns the elements of the set that exist in a mesh.
+    /// Returns those elements of the set that exist in a mesh.
     #[must_use]
     pub fn existing(&self, mesh: &Mesh) -> Self {
         let elements = match &self.elements {

@@ -297,8 +297,8 @@ fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
     }
 }
 
-/// Returns the two ends of a path of edges. An end of the path is a vertex of exactly one of the edges. Returns `None`
-/// if there are not exactly two ends, or if a vertex has more than two of the edges.
+/// Returns the two ends of a path of edges. A vertex is an end of the path if it belongs to exactly one of the edges.
+/// Returns `None` if the number of ends is not 2, or if a vertex belongs to more than two of the edges.
 fn path_ends(mesh: &Mesh, list: &[EdgeId]) -> Option<(usize, usize)> {
     let mut ends: Vec<usize> = list
         .iter()

@@ -119,8 +119,8 @@ impl Painter {
         self.bounds.map(sphere)
     }
 
-    /// Guesses the upward axis of the scene: z if the scene stands on the plane z = 0 but not on the plane y = 0, else
-    /// y.
+    /// Guesses which axis of the scene points upwards. Returns z if the scene stands on the plane z = 0 but not on the
+    /// plane y = 0, and y otherwise.
     pub fn up_axis(&self) -> UpAxis {
         let Some([min, max]) = self.bounds else {
             return UpAxis::Y;

@@ -63,7 +63,7 @@ pub(super) fn patch(queue: &wgpu::Queue, uploaded: &Uploaded, new: &Key) -> bool
     true
 }
 
-/// Returns the faces of those half-edges that differ between the two meshes, in the order of the face ids. All returned
+/// Returns the faces of those half-edges that differ between the two meshes. The faces are sorted by id. All returned
 /// faces are triangles in both meshes. Returns `None` if the meshes differ in other ways.
 fn changed_faces(a: &Mesh, b: &Mesh) -> Option<Vec<FaceId>> {
     let is_same_size = a.is_dense()
@@ -124,7 +124,7 @@ fn has_sharp_edge(mesh: &Mesh, f: FaceId, sharp: f64) -> bool {
     })
 }
 
-/// Returns the vertices of `faces` in both meshes, in the order of their ids.
+/// Returns the vertices that `faces` have in the first or the second mesh, sorted by id.
 fn vertices(meshes: [&Mesh; 2], faces: &[FaceId]) -> Vec<VertexId> {
     let of_face = |&f: &FaceId| {
         meshes

@@ -43,8 +43,7 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
         });
 }
 
-/// Draws a part of the panel that the user can collapse. `name` identifies the part, because the title of a part can
-/// change.
+/// Draws a collapsible part of the panel. `name` identifies the part, because the title of a part can change.
 fn section(ui: &mut Ui, name: &str, title: &str, contents: impl FnOnce(&mut Ui)) {
     let color = Colors::current(ui).text;
     CollapsingHeader::new(RichText::new(title).strong().size(13.0).color(color))

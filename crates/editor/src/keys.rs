@@ -184,12 +184,12 @@ const GROUPS: &[(&str, &[Row])] = &[
             (
                 Action::Grow,
                 &["Plus"],
-                "also pick the elements around the picked elements",
+                "also pick the neighbors of the picked elements",
             ),
             (
                 Action::Shrink,
                 &["Minus"],
-                "unpick the elements at the border of the picked elements",
+                "unpick the picked elements that have an unpicked neighbor",
             ),
             (
                 Action::EdgeLoop,
@@ -269,12 +269,12 @@ const GROUPS: &[(&str, &[Row])] = &[
             (
                 Action::StepBack,
                 &["Alt+Up"],
-                "move the cursor to the step before",
+                "move the step cursor back by one step",
             ),
             (
                 Action::StepForward,
                 &["Alt+Down"],
-                "move the cursor to the step after",
+                "move the step cursor forward by one step",
             ),
             (
                 Action::DuplicateStep,

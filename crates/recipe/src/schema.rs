@@ -229,13 +229,13 @@ fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
                 "type": "array",
                 "items": { "type": "string" },
                 "minItems": 1,
-                "description": "The names of the objects that the step acts on. If omitted, all suitable objects.",
+                "description": "The names of the objects that the step acts on. If omitted, the step acts on all suitable objects.",
             },
             "enabled": {
                 "type": "boolean",
                 "description": "Whether the step runs. Defaults to `true`. If `false`, the step is not checked. Expectations that name the step in `after` are not checked either.",
             },
-            "note": { "type": "string", "description": "A comment on the step, which `meshwright run --explain` and `check --explain` print." },
+            "note": { "type": "string", "description": "A comment on the step. `meshwright run --explain` and `meshwright check --explain` print the comment." },
             "refused": described(
                 &reference::<Refusal>(defined),
                 "The operation must refuse its input for this reason, and leave the scene unchanged.",

@@ -23,7 +23,10 @@ const MOUSE: [(&str, &str); 10] = [
         "remove all elements in the box or lasso from the picked elements",
     ),
     ("Double click", "pick an edge loop"),
-    ("Drag a control point", "move it (curves and patches)"),
+    (
+        "Drag a control point",
+        "move the control point of a curve or patch",
+    ),
 ];
 
 /// The name of a task in the help. Below this name, the help also shows the keys in `SIDES`.

@@ -144,7 +144,7 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
             let button = ui.add_enabled(parts.export.is_none(), Button::new(name).small());
             let button = button.accessible_name(format!("Export as {name}"));
             if button
-                .on_hover_text("Save an animation of the edits as the view shows them")
+                .on_hover_text("Save an animation of the edits, drawn as in the view")
                 .clicked()
             {
                 exports = Some(purpose);

@@ -43,7 +43,7 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
                 records = ui
                     .small_button("Record a test")
                     .on_hover_text(
-                        "Adds to the recipe the expectations that the scene after the selected step meets",
+                        "Adds expectations to the recipe, such as the number of faces, that hold for the scene after the selected step",
                     )
                     .clicked();
             });

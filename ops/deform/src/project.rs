@@ -126,11 +126,11 @@ impl MeshOperation for Project {
         }
         let report = moved(mesh, &mask, Self::NAME, "onto", |v, _| new[v.index()])?;
         let report = report.count(
-            "vertices whose projection line misses the surface, not moved",
+            "vertices not moved, because their projection line misses the surface",
             missed,
         );
         Ok(report.count(
-            "vertices that would move farther than `distance`, not moved",
+            "vertices not moved, because they would move farther than `distance`",
             far,
         ))
     }
@@ -213,7 +213,7 @@ mod tests {
         assert_eq!(report.changed, 8);
         assert_eq!(
             report.notes,
-            ["vertices that would move farther than `distance`, not moved: 6"]
+            ["vertices not moved, because they would move farther than `distance`: 6"]
         );
         assert_eq!(positions(&scene, "cube")[8..], before[8..]);
     }
@@ -226,7 +226,7 @@ mod tests {
         let report = op::test::run(&down, &mut scene).unwrap();
         assert_eq!(
             report.notes,
-            ["vertices whose projection line misses the surface, not moved: 13"]
+            ["vertices not moved, because their projection line misses the surface: 13"]
         );
         let top = before
             .iter()

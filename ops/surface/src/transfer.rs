@@ -152,7 +152,7 @@ impl MeshOperation for Transfer {
         }
         for (domain, kept) in far {
             let what = format!(
-                "{} that take no values from \"{}\", because they are farther away than `within`",
+                "{} that take no values from \"{}\", because they are farther away from it than `within`",
                 plural(domain),
                 self.from
             );

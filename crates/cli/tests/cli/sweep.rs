@@ -213,7 +213,7 @@ fn all_errors_are_reported_with_their_places_and_no_cell_runs() {
             "a.sweep.ron:10:12\n",
             "error: the file none.obj does not exist\n",
             "a.sweep.ron:10:20\n",
-            "8 errors, no cell was run\n",
+            "8 errors, so no run was started\n",
         ]);
     assert_eq!(ended.stdout, "");
     assert_eq!(folder.entries("."), ["a.sweep.ron", "recipe.ron"]);

@@ -245,7 +245,7 @@ fn morphs<'a>(
             None => unnumbered += 1,
         }
     }
-    let reason = "the numbers of the morph targets have gaps, so the last targets are not written";
+    let reason = "the indices of the morph targets have gaps, so the last targets are not written";
     losses.add(Domain::Vertex, "morph targets", unnumbered, reason);
     let missing = morphs.iter().filter(|deltas| deltas.is_none()).count();
     let reason = "the mesh has no deltas for the morph target, so zeros are written";

@@ -83,7 +83,7 @@ impl<'a> FaceStates<'a> {
         losses.add(Domain::Face, "material", unknown, reason);
         let smoothing = mesh.get(mesh::SMOOTHING);
         let negative = smoothing.into_iter().flatten().filter(|&&group| group < 0);
-        let reason = "OBJ smoothing groups cannot be negative, so they are written as 0";
+        let reason = "OBJ does not allow negative smoothing groups, so they are written as 0";
         losses.add(Domain::Face, "smoothing", negative.count(), reason);
         Self {
             objects,

@@ -182,7 +182,7 @@ pub enum RerunReason {
     /// The scene before the step cannot be identified. The input files of an earlier step are not known, and after that
     /// step, a mesh contained removed elements.
     #[error(
-        "the scene before the step cannot be identified: an earlier step has unknown input files and left removed elements in a mesh"
+        "the scene before the step cannot be identified: the input files of an earlier step are unknown, and after that step, a mesh contained removed elements"
     )]
     NoState,
 }

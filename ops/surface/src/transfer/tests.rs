@@ -147,8 +147,8 @@ fn elements_that_are_too_far_keep_their_values_and_are_counted() {
     assert_eq!(
         report.notes,
         [
-            "vertices that take no values from \"scan\", because they are farther away than `within`: 1",
-            "corners that take no values from \"scan\", because they are farther away than `within`: 4"
+            "vertices that take no values from \"scan\", because they are farther away from it than `within`: 1",
+            "corners that take no values from \"scan\", because they are farther away from it than `within`: 4"
         ]
     );
     let mesh = low(&scene);

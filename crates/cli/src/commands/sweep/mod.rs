@@ -194,7 +194,7 @@ impl Plan {
                 grid,
             })),
             _ => {
-                print_error(&format!("{}, no cell was run\n", counted(n, "error")));
+                print_error(&format!("{}, so no run was started\n", counted(n, "error")));
                 Ok(None)
             }
         }

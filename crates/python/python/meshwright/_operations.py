@@ -751,7 +751,7 @@ class SceneOperations:
             ``"angle"``: The angle of the rotation, in degrees. A positive angle is counter-clockwise if the axis points
                 towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param move: The distances to move along x, y and z, in scene units.
-        :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
+        :param about: The point that scaling and rotation do not move. Defaults to ``"Origin"``.
             ``"Origin"``: The origin.
             ``"Center"``: The center of the bounding box of each object.
             ``choice.Point(..)``: A point with the coordinates x, y, z.
@@ -893,8 +893,8 @@ class SceneOperations:
         cut into triangles by ear clipping. A larger face is first cut into monotone polygons, which are then cut into
         triangles. Then diagonals are flipped until the triangulation is a constrained Delaunay triangulation. Some
         faces cannot be triangulated in this way: faces with zero area, faces with crossing sides, and faces with more
-        than ten million corners. Faces with more than 4096 corners also cannot be triangulated in this way if their
-        sides overlap. Each of these faces becomes a triangle fan around its vertex with the lowest id. The report
+        than ten million corners. A face with overlapping sides also cannot be triangulated in this way if it has more
+        than 4096 corners. Each of these faces becomes a triangle fan around its vertex with the lowest id. The report
         counts these faces.
 
         In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids.
@@ -1393,8 +1393,8 @@ class SceneOperations:
 
         :param faces: The faces to inset. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
-            the face. More than 0 (the old corner) and less than 1 (the center).
+        :param fraction: The position of the new corners between the old corners (0) and the center of the face (1).
+            Must be more than 0 and less than 1.
         :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
@@ -1437,8 +1437,8 @@ class SceneOperations:
 
         :param faces: The faces to bevel. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
-            the face. More than 0 (the old corner) and less than 1 (the center).
+        :param fraction: The position of the new corners between the old corners (0) and the center of the face (1),
+            before the inner face is raised. Must be more than 0 and less than 1.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face in the direction opposite to its normal.
         :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
@@ -1465,10 +1465,10 @@ class SceneOperations:
 
         Vertices are removed in order of their ids. Each removal is checked against the mesh that the earlier removals
         have produced. If a vertex has three or more edges, all faces around it become one face. The merged face
-        replaces the face with the lowest id and has its values. If the vertex is on the boundary, its two boundary
-        edges also become one edge. If the vertex has only two edges, these edges become one edge, and each face beside
-        this edge loses a corner. When two edges become one, the edge with the lower id is kept, with its values. The
-        remaining elements keep their order and their values but get new ids. Normals are dropped.
+        replaces the old face with the lowest id, and has the values of this old face. If the vertex is on the boundary,
+        its two boundary edges also become one edge. If the vertex has only two edges, these edges become one edge, and
+        each face beside this edge loses a corner. When two edges become one, the edge with the lower id is kept, with
+        its values. The remaining elements keep their order and their values but get new ids. Normals are dropped.
 
         A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring
         vertex would be left with a single edge, because this edge would end inside a face. A removal is also refused if
@@ -1516,9 +1516,9 @@ class SceneOperations:
         the highest ids, in order of the selected vertices.
 
         Attribute values at a cut are interpolated between the two ends of the cut edge, so textures do not move on the
-        surface. A new face has the values (material, tags) of one of the faces at the vertex. The choice of this face
-        is not specified, but it is the same in every run. New edges have zero values (no crease, no tags). Normals are
-        dropped.
+        surface. A new face has the values (material, tags) of one of the faces at the vertex. It is not specified which
+        of these faces is chosen, but the choice is the same in every run. New edges have zero values (no crease, no
+        tags). Normals are dropped.
 
         A vertex cannot be beveled if it is on the boundary or has fewer than three edges. It also cannot be beveled if
         an earlier cut has left one of its edges too short for a second cut.
@@ -1741,7 +1741,7 @@ class SceneOperations:
         vertex into several groups. The group that contains the face with the lowest id then keeps the old vertex, and
         each other group gets a copy of the vertex. The copies get the highest ids. Faces keep their ids, and no vertex
         moves. Copies of vertices and edges have the values of the originals. Corners keep their values. ``stitch()`` is
-        the inverse operation: it joins the two sides of a cut again.
+        the inverse operation: it joins the two sides of a cut.
 
         An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if it touches neither
         the boundary nor another edge to cut (reason: ``DuplicateEdge``). Both sides of the cut would still join the
@@ -1776,8 +1776,8 @@ class SceneOperations:
 
         If a later operation copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later
         operation adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing vertex
-        tag of the same name is replaced. If a vertex attribute that is not a tag already has this name, the operation
-        fails. The geometry does not change. The report counts the vertices that gained or lost the tag.
+        tag of the same name is replaced. The operation fails if the mesh has a vertex attribute of this name that is
+        not a tag. The geometry does not change. The report counts the vertices that gained or lost the tag.
 
         Example: ``scene.tag_vertices(name="some", vertices="Boundary")``, in a recipe ``TagVertices(name: "some",
         vertices: Boundary)``
@@ -1804,8 +1804,8 @@ class SceneOperations:
         the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged edges in later operations.
 
         When a later operation splits or subdivides a tagged edge, the parts of this edge are also tagged. An existing
-        edge tag of the same name is replaced. If an edge attribute that is not a tag already has this name, the
-        operation fails. The geometry does not change. The report counts the edges that gained or lost the tag.
+        edge tag of the same name is replaced. The operation fails if the mesh has an edge attribute of this name that
+        is not a tag. The geometry does not change. The report counts the edges that gained or lost the tag.
 
         Example: ``scene.tag_edges(name="marked", edges=sel.EdgeLoop(sel.Longest(count=2)))``, in a recipe
         ``TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))``
@@ -1832,8 +1832,8 @@ class SceneOperations:
         the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged faces in later operations.
 
         When a later operation splits or subdivides a tagged face, the parts of this face are also tagged. An existing
-        face tag of the same name is replaced. If a face attribute that is not a tag already has this name, the
-        operation fails. The geometry does not change. The report counts the faces that gained or lost the tag.
+        face tag of the same name is replaced. The operation fails if the mesh has a face attribute of this name that is
+        not a tag. The geometry does not change. The report counts the faces that gained or lost the tag.
 
         Example: ``scene.tag_faces(name="some", faces=sel.Facing(direction=(0, 0, 1), within=45))``, in a recipe
         ``TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))``
@@ -1862,7 +1862,7 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every triangle into four and smooths the surface, for a number of levels.
+        """Splits every triangle into four and smooths the surface. The operation repeats this for every level.
 
         A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The
         Euler characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has
@@ -1898,11 +1898,11 @@ class SceneOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but a value at a vertex does not change if only one face at this vertex
+            ``"CornersOnly"``: Like ``None_``, but a value at a vertex stays unchanged if only one face at this vertex
                 has the value.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also stay unchanged at a vertex with three or more
                 different values.
-            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
+            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also stay unchanged at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
@@ -1932,7 +1932,7 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every face into quads and smooths the surface, for a number of levels.
+        """Splits every face into quads and smooths the surface. The operation repeats this for every level.
 
         Each level creates one quad at each corner of each old face. A level turns V vertices, E edges and F faces with
         C corners in total into V + E + F vertices, 2 E + C edges and C quads. The Euler characteristic V - E + F does
@@ -1964,17 +1964,17 @@ class SceneOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but a value at a vertex does not change if only one face at this vertex
+            ``"CornersOnly"``: Like ``None_``, but a value at a vertex stays unchanged if only one face at this vertex
                 has the value.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also stay unchanged at a vertex with three or more
                 different values.
-            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
+            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also stay unchanged at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
             and tangents of this surface. Defaults to ``False``.
-        :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
-            on common edges as additional corners. The surface outside the refined faces does not move. The
+        :param faces: The faces to refine. If omitted, all faces. A face beside a refined face gets additional corners
+            at the new vertices on their common edge. The surface outside the refined faces does not move. The
             documentation of the Rust function ``subdivision::refine_faces`` describes the ids of new elements.
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
@@ -1994,7 +1994,7 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every face into smaller faces without moving vertices, for a number of levels.
+        """Splits every face into smaller faces without moving vertices. The operation repeats this for every level.
 
         With ``into="Triangles"``, all faces must be triangles. A level then turns V vertices, E edges and F triangles
         into V + E vertices, 2 E + 3 F edges and 4 F triangles. Triangle f becomes faces 4f to 4f + 3. With
@@ -2019,8 +2019,8 @@ class SceneOperations:
             ``"Triangles"``: Splits each triangle into four.
             ``"Quads"``: Splits each face with n corners into n quads around its center.
         :param faces: The faces to refine. If omitted, all faces. With ``into="Triangles"``, triangles next to the
-            refined faces are cut in two or four. With ``into="Quads"``, faces next to the refined faces get the new
-            vertices on common edges as additional corners. The documentation of the Rust function
+            refined faces are cut in two or four. With ``into="Quads"``, a face beside a refined face gets additional
+            corners at the new vertices on their common edge. The documentation of the Rust function
             ``subdivision::refine_faces`` describes the ids of new elements. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param on: The names of the objects on which the operation acts. If omitted, the operation acts on all objects
@@ -2038,8 +2038,8 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
-        levels.
+        """Splits every triangle into four and smooths the surface without moving the old vertices. The operation
+        repeats this for every level.
 
         A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The
         Euler characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has
@@ -2074,14 +2074,15 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
+        """Splits every triangle into three, flips the old edges, and smooths the surface. The operation repeats this
+        for every level.
 
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
-        second level also cuts each boundary edge in three. For each boundary edge, the counts of vertices and edges are
-        then larger by one. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new
-        vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step
-        counts its own levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of one
-        level each leave the boundary edges uncut.
+        second level also cuts each boundary edge in three. Each boundary edge that is cut in three adds one vertex and
+        one edge to these counts. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The
+        new vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each
+        step counts its own levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of
+        one level each leave the boundary edges uncut.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
         within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
@@ -2113,7 +2114,8 @@ class SceneOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
+        """Replaces every edge and every vertex with a face and shrinks the old faces. The operation repeats this for
+        every level.
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. The Euler
@@ -2158,20 +2160,19 @@ class SceneOperations:
 
         Every edge that crosses the plane gets a new vertex at the crossing point. Every face that crosses the plane is
         cut along the plane. A concave face can be cut in several places. A vertex near the plane is treated as if it
-        were on the plane, and is not moved. A vertex is near if its distance from the plane is at most 1e-9 times the
-        longest side of the bounding box. A distance of at most 1e-14 times the largest absolute coordinate also counts
-        as near. Every edge has two half-edges. When an edge is cut, one part keeps the id of the edge: the part that
-        contains the start of the half-edge with the lower id. When a face is cut, the part that contains the first
-        corner keeps the id of the face. New elements get the highest ids. Where an edge crosses the plane, attributes
-        are interpolated. At a seam (an edge whose corner values, such as UVs, differ between its two sides), the corner
-        values of each side are interpolated separately.
+        were on the plane, and is not moved. A vertex is near the plane if its distance from the plane is at most 1e-9
+        times the longest side of the bounding box. A vertex is also near if this distance is at most 1e-14 times the
+        largest absolute coordinate. Every edge has two half-edges. When an edge is cut, one part keeps the id of the
+        edge: the part that contains the start of the half-edge with the lower id. When a face is cut, the part that
+        contains the first corner keeps the id of the face. New elements get the highest ids. Where an edge crosses the
+        plane, attributes are interpolated. At a seam (an edge whose corner values, such as UVs, differ between its two
+        sides), the corner values of each side are interpolated separately.
 
         With ``keep="Front"``, the part of the mesh behind the plane is removed. With ``keep="Back"``, the part in front
-        of the plane is removed. If a face lies in the plane and its normal points to the front, the face belongs to the
-        back, because it closes the solid behind the plane. Vertices that are left without a face are removed. If the
-        remaining faces around a vertex form several fans (groups of faces connected across edges), each fan gets a
-        separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
-        later operation.
+        of the plane is removed. A face in the plane whose normal points to the front belongs to the back, because the
+        face closes the solid behind the plane. Vertices that are left without a face are removed. If the remaining
+        faces around a vertex form several fans (groups of faces connected across edges), each fan gets a separate copy
+        of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a later operation.
 
         Example: ``scene.bisect(normal=(0, 0, 1))``, in a recipe ``Bisect(normal: (0, 0, 1))``
 
@@ -2280,8 +2281,8 @@ class SceneOperations:
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
             limit is guaranteed: for each collapse, the operation computes an upper bound of how far the surface moves,
-            and adds up these bounds. The sum overestimates the true distance. If the limit ends the operation, the true
-            distance is usually between a third of the limit and the limit. If omitted, there is no limit.
+            and adds up these bounds. The sum overestimates the true distance. If the operation ends because of this
+            limit, the true distance is usually at least a third of the limit. If omitted, there is no limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
@@ -2291,7 +2292,8 @@ class SceneOperations:
             occur where parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed.
             ``"Refuse"``: The operation refuses every change that would make a changed face intersect another face.
-        :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
+        :param on_refusal: What to do if the mesh cannot be reduced to the requested number of faces. Defaults to
+            ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
@@ -2331,7 +2333,8 @@ class SceneOperations:
         :param features: Edges to keep as lines, in addition to the lines that ``simplify()`` always keeps. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
-        :param on_refusal: What to do if the number of faces of a copy cannot be reached. Defaults to ``"Error"``.
+        :param on_refusal: What to do if a copy cannot be reduced to the requested number of faces. Defaults to
+            ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
@@ -2374,10 +2377,10 @@ class SceneOperations:
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
         - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
-          vertices are the three corners of the old triangle at this position. A tagged vertex can move only if all
-          corners of one of its triangles, or both of its neighbors on a line, also have the tag. All other tagged
-          vertices keep their exact positions. Vertices with a sharpness (see ``crease()``) also keep their exact
-          positions.
+          vertices are the three corners of the old triangle at this position. A tagged vertex can move only in two
+          cases: all corners of one of its triangles have the tag, or both of its neighbors on a line have the tag. All
+          other tagged vertices keep their exact positions. Vertices with a sharpness (see ``crease()``) also keep their
+          exact positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. Therefore the command
         ``check``, which examines a recipe but does not run it, shows the largest number of faces that fits the memory
@@ -2491,11 +2494,12 @@ class SceneOperations:
 
         The operation copies vertex, corner and face attributes from the object ``from_`` to elements of the same kind
         in the changed mesh. For each element, the operation finds the nearest point on the surface of ``from_``, and
-        the face that contains this point. Numbers and vectors of vertices and corners are interpolated inside this
-        face. Whole numbers, tags, and other attributes that are never interpolated are copied from the corner of this
-        face that is nearest to the point. Values of faces are copied from this face. If the changed mesh already has
-        the attribute with the same type of values, the attribute is overwritten. If the type of values differs, the
-        operation fails. If the operation does not name its objects with ``on``, it changes all meshes except ``from_``.
+        the face that contains this point. For vertex and corner attributes, numbers and vectors are interpolated inside
+        this face. Whole numbers, tags, and other attributes that are never interpolated are copied from the corner of
+        this face that is nearest to the point. Values of faces are copied from this face. If the changed mesh already
+        has the attribute with the same type of values, the attribute is overwritten. If the changed mesh has the
+        attribute with another type of values, the operation fails. Without ``on``, a method of a scene changes all
+        meshes except the object ``from_``.
 
         Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
         same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This
@@ -2505,9 +2509,9 @@ class SceneOperations:
         whole, this other chart is used.
 
         Elements that are farther from the source object than ``within`` keep their values, or get zeros if the
-        attribute is new. All corners of a face are treated alike. If one of the corners or the center of the face is
-        too far away, all corners of the face keep their values or get zeros. The report counts the elements that take
-        no values from the source object.
+        attribute is new. Either all corners of a face take values, or none of them. If one of the corners or the center
+        of the face is too far away, all corners of the face keep their values or get zeros. The report counts the
+        elements that take no values from the source object.
 
         Example: ``scene.transfer(from_="scan", attributes=["uv", "color"], within=0.01)``, in a recipe ``Transfer(from:
         "scan", attributes: ["uv", "color"], within: 0.01)``
@@ -2637,8 +2641,8 @@ class SceneOperations:
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
-        :param angle: The angle by which the axis turns from ``from_`` to ``to``, in degrees. A negative angle bends to
-            the other side.
+        :param angle: The angle by which the axis turns between ``from_`` and ``to``, in degrees. A negative angle bends
+            to the other side.
         :param towards: The upper end bends in the positive direction of this coordinate axis. If omitted, this is the
             axis after ``axis`` in the order x, y, z, x.
             ``"X"``: The x axis.
@@ -2730,7 +2734,8 @@ class SceneOperations:
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
-        :param factor: The factor at ``to``. More than 0. A factor below 1 makes the upper end narrower.
+        :param factor: The scale factor at the coordinate ``to``. More than 0. A factor below 1 makes the upper end
+            narrower.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh along the axis.
@@ -3049,9 +3054,9 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
             defaults grow with the shorter side of a view. For a side of 240 pixels, the width is 2.8 and the diameter
-            7.5. For 480 pixels, they are 3.4 and 10; for 960 pixels, 4 and 13; for 1920 pixels, 8 and 26. If there are
-            many highlighted vertices, their default diameter is smaller. Edges behind a surface are drawn faintly, and
-            vertices behind a surface as rings.
+            is 7.5. The width and the diameter are 3.4 and 10 for 480 pixels, 4 and 13 for 960 pixels, and 8 and 26 for
+            1920 pixels. If there are many highlighted vertices, their default diameter is smaller. Edges behind a
+            surface are drawn faintly, and vertices behind a surface are drawn as rings.
         :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
@@ -3065,8 +3070,8 @@ class SceneOperations:
                 ``Viridis`` for all other quantities.
             ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
                 range is computed from the values of the quantity. For curvatures, the range is symmetric about 0, and
-                the lowest and the highest eighth of the values are ignored. If all remaining values are 0, fewer values
-                are ignored.
+                the lowest and the highest eighth of the values are ignored. If all remaining values are 0, only the
+                lowest and the highest 2 % of the values are ignored, or no values.
             ``"legend"``: Whether a legend in a corner of the picture explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
@@ -3116,9 +3121,10 @@ class SceneOperations:
             empty, only the curves and their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
             Defaults to ``False``.
-        :param before: The name of another curve, such as an older version of the drawn curve. The older curve is drawn
-            faintly behind each drawn curve. If both curves have the same degree, arrows lead from the old to the new
-            positions of the control points that have moved clearly.
+        :param before: The name of another curve, such as an older version of the drawn curve. This other curve is drawn
+            faintly behind each drawn curve. If both curves have the same degree, an arrow leads from each control point
+            of the other curve to the same control point of the drawn curve. Control points that have moved by at most
+            28 SVG pixels have no arrow.
         :param width: The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19
             pixels in wide panels. Defaults to ``640``.
         :param columns: The number of panels in each row. If omitted, each row has one panel for each value of ``t``,
@@ -3460,7 +3466,7 @@ class MeshOperations:
             ``"angle"``: The angle of the rotation, in degrees. A positive angle is counter-clockwise if the axis points
                 towards the viewer. Rotations by multiples of 90 degrees have no rounding errors.
         :param move: The distances to move along x, y and z, in scene units.
-        :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
+        :param about: The point that scaling and rotation do not move. Defaults to ``"Origin"``.
             ``"Origin"``: The origin.
             ``"Center"``: The center of the bounding box of each object.
             ``choice.Point(..)``: A point with the coordinates x, y, z.
@@ -3552,8 +3558,8 @@ class MeshOperations:
         cut into triangles by ear clipping. A larger face is first cut into monotone polygons, which are then cut into
         triangles. Then diagonals are flipped until the triangulation is a constrained Delaunay triangulation. Some
         faces cannot be triangulated in this way: faces with zero area, faces with crossing sides, and faces with more
-        than ten million corners. Faces with more than 4096 corners also cannot be triangulated in this way if their
-        sides overlap. Each of these faces becomes a triangle fan around its vertex with the lowest id. The report
+        than ten million corners. A face with overlapping sides also cannot be triangulated in this way if it has more
+        than 4096 corners. Each of these faces becomes a triangle fan around its vertex with the lowest id. The report
         counts these faces.
 
         In the list of faces, the triangles of a face take the place of this face, so faces with higher ids get new ids.
@@ -4025,8 +4031,8 @@ class MeshOperations:
 
         :param faces: The faces to inset. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
-            the face. More than 0 (the old corner) and less than 1 (the center).
+        :param fraction: The position of the new corners between the old corners (0) and the center of the face (1).
+            Must be more than 0 and less than 1.
         :param on_refusal: What to do when a face cannot be inset. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
@@ -4066,8 +4072,8 @@ class MeshOperations:
 
         :param faces: The faces to bevel. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
             ``meshwright.sel``.
-        :param fraction: The position of each corner of the inner face on the line from the old corner to the center of
-            the face. More than 0 (the old corner) and less than 1 (the center).
+        :param fraction: The position of the new corners between the old corners (0) and the center of the face (1),
+            before the inner face is raised. Must be more than 0 and less than 1.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face in the direction opposite to its normal.
         :param on_refusal: What to do when a face cannot be beveled. Defaults to ``"Error"``.
@@ -4092,10 +4098,10 @@ class MeshOperations:
 
         Vertices are removed in order of their ids. Each removal is checked against the mesh that the earlier removals
         have produced. If a vertex has three or more edges, all faces around it become one face. The merged face
-        replaces the face with the lowest id and has its values. If the vertex is on the boundary, its two boundary
-        edges also become one edge. If the vertex has only two edges, these edges become one edge, and each face beside
-        this edge loses a corner. When two edges become one, the edge with the lower id is kept, with its values. The
-        remaining elements keep their order and their values but get new ids. Normals are dropped.
+        replaces the old face with the lowest id, and has the values of this old face. If the vertex is on the boundary,
+        its two boundary edges also become one edge. If the vertex has only two edges, these edges become one edge, and
+        each face beside this edge loses a corner. When two edges become one, the edge with the lower id is kept, with
+        its values. The remaining elements keep their order and their values but get new ids. Normals are dropped.
 
         A vertex cannot be removed if it is isolated or has a single edge. It also cannot be removed if a neighboring
         vertex would be left with a single edge, because this edge would end inside a face. A removal is also refused if
@@ -4140,9 +4146,9 @@ class MeshOperations:
         the highest ids, in order of the selected vertices.
 
         Attribute values at a cut are interpolated between the two ends of the cut edge, so textures do not move on the
-        surface. A new face has the values (material, tags) of one of the faces at the vertex. The choice of this face
-        is not specified, but it is the same in every run. New edges have zero values (no crease, no tags). Normals are
-        dropped.
+        surface. A new face has the values (material, tags) of one of the faces at the vertex. It is not specified which
+        of these faces is chosen, but the choice is the same in every run. New edges have zero values (no crease, no
+        tags). Normals are dropped.
 
         A vertex cannot be beveled if it is on the boundary or has fewer than three edges. It also cannot be beveled if
         an earlier cut has left one of its edges too short for a second cut.
@@ -4352,7 +4358,7 @@ class MeshOperations:
         vertex into several groups. The group that contains the face with the lowest id then keeps the old vertex, and
         each other group gets a copy of the vertex. The copies get the highest ids. Faces keep their ids, and no vertex
         moves. Copies of vertices and edges have the values of the originals. Corners keep their values. ``stitch()`` is
-        the inverse operation: it joins the two sides of a cut again.
+        the inverse operation: it joins the two sides of a cut.
 
         An edge on the boundary cannot be cut (reason: ``Boundary``). An edge also cannot be cut if it touches neither
         the boundary nor another edge to cut (reason: ``DuplicateEdge``). Both sides of the cut would still join the
@@ -4385,8 +4391,8 @@ class MeshOperations:
 
         If a later operation copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later
         operation adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing vertex
-        tag of the same name is replaced. If a vertex attribute that is not a tag already has this name, the operation
-        fails. The geometry does not change. The report counts the vertices that gained or lost the tag.
+        tag of the same name is replaced. The operation fails if the mesh has a vertex attribute of this name that is
+        not a tag. The geometry does not change. The report counts the vertices that gained or lost the tag.
 
         Example: ``mesh.tag_vertices(name="some", vertices="Boundary")``
 
@@ -4410,8 +4416,8 @@ class MeshOperations:
         the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged edges in later operations.
 
         When a later operation splits or subdivides a tagged edge, the parts of this edge are also tagged. An existing
-        edge tag of the same name is replaced. If an edge attribute that is not a tag already has this name, the
-        operation fails. The geometry does not change. The report counts the edges that gained or lost the tag.
+        edge tag of the same name is replaced. The operation fails if the mesh has an edge attribute of this name that
+        is not a tag. The geometry does not change. The report counts the edges that gained or lost the tag.
 
         Example: ``mesh.tag_edges(name="marked", edges=sel.EdgeLoop(sel.Longest(count=2)))``
 
@@ -4435,8 +4441,8 @@ class MeshOperations:
         the name of the tag is ``rim``, ``sel.Tagged("rim")`` selects the tagged faces in later operations.
 
         When a later operation splits or subdivides a tagged face, the parts of this face are also tagged. An existing
-        face tag of the same name is replaced. If a face attribute that is not a tag already has this name, the
-        operation fails. The geometry does not change. The report counts the faces that gained or lost the tag.
+        face tag of the same name is replaced. The operation fails if the mesh has a face attribute of this name that is
+        not a tag. The geometry does not change. The report counts the faces that gained or lost the tag.
 
         Example: ``mesh.tag_faces(name="some", faces=sel.Facing(direction=(0, 0, 1), within=45))``
 
@@ -4462,7 +4468,7 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every triangle into four and smooths the surface, for a number of levels.
+        """Splits every triangle into four and smooths the surface. The operation repeats this for every level.
 
         A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The
         Euler characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has
@@ -4498,11 +4504,11 @@ class MeshOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but a value at a vertex does not change if only one face at this vertex
+            ``"CornersOnly"``: Like ``None_``, but a value at a vertex stays unchanged if only one face at this vertex
                 has the value.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also stay unchanged at a vertex with three or more
                 different values.
-            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
+            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also stay unchanged at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
@@ -4530,7 +4536,7 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every face into quads and smooths the surface, for a number of levels.
+        """Splits every face into quads and smooths the surface. The operation repeats this for every level.
 
         Each level creates one quad at each corner of each old face. A level turns V vertices, E edges and F faces with
         C corners in total into V + E + F vertices, 2 E + C edges and C quads. The Euler characteristic V - E + F does
@@ -4562,17 +4568,17 @@ class MeshOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but a value at a vertex does not change if only one face at this vertex
+            ``"CornersOnly"``: Like ``None_``, but a value at a vertex stays unchanged if only one face at this vertex
                 has the value.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change at a vertex with three or more
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also stay unchanged at a vertex with three or more
                 different values.
-            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
+            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also stay unchanged at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store the normals
             and tangents of this surface. Defaults to ``False``.
-        :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
-            on common edges as additional corners. The surface outside the refined faces does not move. The
+        :param faces: The faces to refine. If omitted, all faces. A face beside a refined face gets additional corners
+            at the new vertices on their common edge. The surface outside the refined faces does not move. The
             documentation of the Rust function ``subdivision::refine_faces`` describes the ids of new elements.
             ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
@@ -4590,7 +4596,7 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every face into smaller faces without moving vertices, for a number of levels.
+        """Splits every face into smaller faces without moving vertices. The operation repeats this for every level.
 
         With ``into="Triangles"``, all faces must be triangles. A level then turns V vertices, E edges and F triangles
         into V + E vertices, 2 E + 3 F edges and 4 F triangles. Triangle f becomes faces 4f to 4f + 3. With
@@ -4615,8 +4621,8 @@ class MeshOperations:
             ``"Triangles"``: Splits each triangle into four.
             ``"Quads"``: Splits each face with n corners into n quads around its center.
         :param faces: The faces to refine. If omitted, all faces. With ``into="Triangles"``, triangles next to the
-            refined faces are cut in two or four. With ``into="Quads"``, faces next to the refined faces get the new
-            vertices on common edges as additional corners. The documentation of the Rust function
+            refined faces are cut in two or four. With ``into="Quads"``, a face beside a refined face gets additional
+            corners at the new vertices on their common edge. The documentation of the Rust function
             ``subdivision::refine_faces`` describes the ids of new elements. ``"All"``, ``"Boundary"``,
             ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
         :param id, progress: See :class:`Mesh`.
@@ -4632,8 +4638,8 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
-        levels.
+        """Splits every triangle into four and smooths the surface without moving the old vertices. The operation
+        repeats this for every level.
 
         A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles. The
         Euler characteristic V - E + F does not change. Old vertices keep their ids, and the new vertex on edge e has
@@ -4666,14 +4672,15 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
+        """Splits every triangle into three, flips the old edges, and smooths the surface. The operation repeats this
+        for every level.
 
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
-        second level also cuts each boundary edge in three. For each boundary edge, the counts of vertices and edges are
-        then larger by one. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The new
-        vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each step
-        counts its own levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of one
-        level each leave the boundary edges uncut.
+        second level also cuts each boundary edge in three. Each boundary edge that is cut in three adds one vertex and
+        one edge to these counts. The Euler characteristic V - E + F does not change. Old vertices keep their ids. The
+        new vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces must be triangles. Each
+        step counts its own levels from 1. One operation of two levels therefore cuts the boundary edges. Two steps of
+        one level each leave the boundary edges uncut.
 
         Vertex attributes are smoothed with the same weights as the positions. Corner values are interpolated linearly
         within each old triangle separately. A triangle next to a flipped edge covers parts of two old triangles. If the
@@ -4703,7 +4710,8 @@ class MeshOperations:
         id: str | None = None,
         progress: bool | Progress | None = None,
     ) -> Self:
-        """Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
+        """Replaces every edge and every vertex with a face and shrinks the old faces. The operation repeats this for
+        every level.
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. The Euler
@@ -4746,20 +4754,19 @@ class MeshOperations:
 
         Every edge that crosses the plane gets a new vertex at the crossing point. Every face that crosses the plane is
         cut along the plane. A concave face can be cut in several places. A vertex near the plane is treated as if it
-        were on the plane, and is not moved. A vertex is near if its distance from the plane is at most 1e-9 times the
-        longest side of the bounding box. A distance of at most 1e-14 times the largest absolute coordinate also counts
-        as near. Every edge has two half-edges. When an edge is cut, one part keeps the id of the edge: the part that
-        contains the start of the half-edge with the lower id. When a face is cut, the part that contains the first
-        corner keeps the id of the face. New elements get the highest ids. Where an edge crosses the plane, attributes
-        are interpolated. At a seam (an edge whose corner values, such as UVs, differ between its two sides), the corner
-        values of each side are interpolated separately.
+        were on the plane, and is not moved. A vertex is near the plane if its distance from the plane is at most 1e-9
+        times the longest side of the bounding box. A vertex is also near if this distance is at most 1e-14 times the
+        largest absolute coordinate. Every edge has two half-edges. When an edge is cut, one part keeps the id of the
+        edge: the part that contains the start of the half-edge with the lower id. When a face is cut, the part that
+        contains the first corner keeps the id of the face. New elements get the highest ids. Where an edge crosses the
+        plane, attributes are interpolated. At a seam (an edge whose corner values, such as UVs, differ between its two
+        sides), the corner values of each side are interpolated separately.
 
         With ``keep="Front"``, the part of the mesh behind the plane is removed. With ``keep="Back"``, the part in front
-        of the plane is removed. If a face lies in the plane and its normal points to the front, the face belongs to the
-        back, because it closes the solid behind the plane. Vertices that are left without a face are removed. If the
-        remaining faces around a vertex form several fans (groups of faces connected across edges), each fan gets a
-        separate copy of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a
-        later operation.
+        of the plane is removed. A face in the plane whose normal points to the front belongs to the back, because the
+        face closes the solid behind the plane. Vertices that are left without a face are removed. If the remaining
+        faces around a vertex form several fans (groups of faces connected across edges), each fan gets a separate copy
+        of the vertex. No faces are added to close the cut. To close the cut, use ``fill_holes()`` in a later operation.
 
         Example: ``mesh.bisect(normal=(0, 0, 1))``
 
@@ -4864,8 +4871,8 @@ class MeshOperations:
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
             limit is guaranteed: for each collapse, the operation computes an upper bound of how far the surface moves,
-            and adds up these bounds. The sum overestimates the true distance. If the limit ends the operation, the true
-            distance is usually between a third of the limit and the limit. If omitted, there is no limit.
+            and adds up these bounds. The sum overestimates the true distance. If the operation ends because of this
+            limit, the true distance is usually at least a third of the limit. If omitted, there is no limit.
         :param features: Edges to keep as lines, in addition to the lines that are always kept. For example,
             ``sel.Sharp(above=30)``. If omitted, no additional edges. ``"All"``, ``"Boundary"``, or a value of
             ``meshwright.sel``.
@@ -4875,7 +4882,8 @@ class MeshOperations:
             occur where parts of the surface are close together. Defaults to ``"Allow"``.
             ``"Allow"``: New intersections are allowed.
             ``"Refuse"``: The operation refuses every change that would make a changed face intersect another face.
-        :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
+        :param on_refusal: What to do if the mesh cannot be reduced to the requested number of faces. Defaults to
+            ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal in the report, and continue with the next
                 element.
@@ -4918,10 +4926,10 @@ class MeshOperations:
         - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
           interpolated across a line.
         - Vertex tags: a new vertex gets a tag if all old vertices around its position have the tag. Usually, these old
-          vertices are the three corners of the old triangle at this position. A tagged vertex can move only if all
-          corners of one of its triangles, or both of its neighbors on a line, also have the tag. All other tagged
-          vertices keep their exact positions. Vertices with a sharpness (see ``crease()``) also keep their exact
-          positions.
+          vertices are the three corners of the old triangle at this position. A tagged vertex can move only in two
+          cases: all corners of one of its triangles have the tag, or both of its neighbors on a line have the tag. All
+          other tagged vertices keep their exact positions. Vertices with a sharpness (see ``crease()``) also keep their
+          exact positions.
 
         The number of faces depends on the area of the mesh, which is not known before the run. When the operation
         starts, it estimates the number of faces from the area. The operation fails if a mesh with this number of faces
@@ -5030,11 +5038,11 @@ class MeshOperations:
 
         The operation copies vertex, corner and face attributes from the mesh ``from_`` to elements of the same kind in
         the changed mesh. For each element, the operation finds the nearest point on the surface of ``from_``, and the
-        face that contains this point. Numbers and vectors of vertices and corners are interpolated inside this face.
-        Whole numbers, tags, and other attributes that are never interpolated are copied from the corner of this face
-        that is nearest to the point. Values of faces are copied from this face. If the changed mesh already has the
-        attribute with the same type of values, the attribute is overwritten. If the type of values differs, the
-        operation fails. If the operation does not name its objects with ``on``, it changes all meshes except ``from_``.
+        face that contains this point. For vertex and corner attributes, numbers and vectors are interpolated inside
+        this face. Whole numbers, tags, and other attributes that are never interpolated are copied from the corner of
+        this face that is nearest to the point. Values of faces are copied from this face. If the changed mesh already
+        has the attribute with the same type of values, the attribute is overwritten. If the changed mesh has the
+        attribute with another type of values, the operation fails.
 
         Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
         same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This
@@ -5044,9 +5052,9 @@ class MeshOperations:
         whole, this other chart is used.
 
         Elements that are farther from the source object than ``within`` keep their values, or get zeros if the
-        attribute is new. All corners of a face are treated alike. If one of the corners or the center of the face is
-        too far away, all corners of the face keep their values or get zeros. The report counts the elements that take
-        no values from the source object.
+        attribute is new. Either all corners of a face take values, or none of them. If one of the corners or the center
+        of the face is too far away, all corners of the face keep their values or get zeros. The report counts the
+        elements that take no values from the source object.
 
         Example: ``mesh.transfer(from_=scan, attributes=["uv", "color"], within=0.01)``
 
@@ -5167,8 +5175,8 @@ class MeshOperations:
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
-        :param angle: The angle by which the axis turns from ``from_`` to ``to``, in degrees. A negative angle bends to
-            the other side.
+        :param angle: The angle by which the axis turns between ``from_`` and ``to``, in degrees. A negative angle bends
+            to the other side.
         :param towards: The upper end bends in the positive direction of this coordinate axis. If omitted, this is the
             axis after ``axis`` in the order x, y, z, x.
             ``"X"``: The x axis.
@@ -5256,7 +5264,8 @@ class MeshOperations:
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
-        :param factor: The factor at ``to``. More than 0. A factor below 1 makes the upper end narrower.
+        :param factor: The scale factor at the coordinate ``to``. More than 0. A factor below 1 makes the upper end
+            narrower.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh along the axis.
@@ -5561,9 +5570,9 @@ class MeshOperations:
             value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
             defaults grow with the shorter side of a view. For a side of 240 pixels, the width is 2.8 and the diameter
-            7.5. For 480 pixels, they are 3.4 and 10; for 960 pixels, 4 and 13; for 1920 pixels, 8 and 26. If there are
-            many highlighted vertices, their default diameter is smaller. Edges behind a surface are drawn faintly, and
-            vertices behind a surface as rings.
+            is 7.5. The width and the diameter are 3.4 and 10 for 480 pixels, 4 and 13 for 960 pixels, and 8 and 26 for
+            1920 pixels. If there are many highlighted vertices, their default diameter is smaller. Edges behind a
+            surface are drawn faintly, and vertices behind a surface are drawn as rings.
         :param marks: More selections of elements to highlight, each with its own color.
             ``"of"``: The elements.
             ``"color"``: The color.
@@ -5577,8 +5586,8 @@ class MeshOperations:
                 ``Viridis`` for all other quantities.
             ``"range"``: The values that the first and the last color represent, as in ``(0, 60)``. If omitted, the
                 range is computed from the values of the quantity. For curvatures, the range is symmetric about 0, and
-                the lowest and the highest eighth of the values are ignored. If all remaining values are 0, fewer values
-                are ignored.
+                the lowest and the highest eighth of the values are ignored. If all remaining values are 0, only the
+                lowest and the highest 2 % of the values are ignored, or no values.
             ``"legend"``: Whether a legend in a corner of the picture explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
             ``"frames"``: The number of images.
@@ -5622,9 +5631,10 @@ class MeshOperations:
             empty, only the curves and their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
             Defaults to ``False``.
-        :param before: The name of another curve, such as an older version of the drawn curve. The older curve is drawn
-            faintly behind each drawn curve. If both curves have the same degree, arrows lead from the old to the new
-            positions of the control points that have moved clearly.
+        :param before: The name of another curve, such as an older version of the drawn curve. This other curve is drawn
+            faintly behind each drawn curve. If both curves have the same degree, an arrow leads from each control point
+            of the other curve to the same control point of the drawn curve. Control points that have moved by at most
+            28 SVG pixels have no arrow.
         :param width: The width of the figure in SVG pixels. The font size is 12 pixels in narrow panels and up to 19
             pixels in wide panels. Defaults to ``640``.
         :param columns: The number of panels in each row. If omitted, each row has one panel for each value of ``t``,

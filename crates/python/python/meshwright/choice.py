@@ -162,8 +162,8 @@ def Fit(
         ``choice.Perspective(..)``: Perspective projection, as in a photograph.
     :param margin: The empty margin at each border of the picture, as a fraction of the width (left and right) or height
         (top and bottom). Defaults to ``0.05``.
-    :param steady: Whether the scale is the same from every direction. Set this for an animation in which the camera
-        turns around the scene. Defaults to ``False``.
+    :param steady: Whether the picture has the same scale for every direction of the camera. Set this for an animation
+        in which the camera turns around the scene. Defaults to ``False``.
     """
     return Choice('Fit', from_=from_, up=up, projection=projection, margin=margin, steady=steady)
 
@@ -195,8 +195,8 @@ def Image(*, path: str | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice
 
     For ``displace(by=..)``.
 
-    :param path: The PNG or JPEG file. A relative path is relative to the working directory; in a recipe, to the folder
-        of the recipe.
+    :param path: The path of the PNG or JPEG file. A relative path is relative to the working directory; in a recipe, to
+        the folder of the recipe.
     :param uv: The name of the attribute that holds the texture coordinates. Defaults to ``uv``.
     """
     return Choice('Image', path=path, uv=uv)
@@ -284,7 +284,7 @@ def Noise(*, scale: float | Arg | Ron, seed: int | Arg | Ron | None = None) -> C
 
     For ``displace(by=..)``.
 
-    :param scale: The size of the waves, in scene units.
+    :param scale: The size of the waves of the noise, in scene units.
     :param seed: The seed. A different seed gives different noise. The same seed gives the same noise in every step.
         Defaults to 0.
     """
@@ -427,8 +427,8 @@ def Taubin(
         ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
         ``"Cotangent"``: The weights depend on the angles of the faces (cotangent weights).
     :param factor: The distance of the movement towards the mean, as a fraction of the distance from the vertex to the
-        mean. From 0 to 1, exclusive. Factors that would amplify noise are refused. With the default ``pass_band``,
-        factors of more than about 0.7 are refused. Defaults to 0.33.
+        mean. From 0 to 1, exclusive. Values that would amplify noise are refused: with the default ``pass_band``, these
+        are values of more than about 0.7. Defaults to 0.33.
     :param pass_band: The frequency below which shapes are kept. The frequencies of a mesh are from 0 (large shapes) to
         2 (noise between neighboring vertices). A lower value smooths more. From 0 to 1, exclusive. Defaults to 0.05.
     """

@@ -58,9 +58,9 @@ def Attribute(
     Every mesh must have the attribute. Fails if no element has a value.
 
     :param name: The name of the attribute.
-    :param of: Which elements. If omitted, all elements of one kind. If several kinds have an attribute of this name,
-        the first of vertices, faces, corners and edges is used. ``"All"``, ``"Boundary"``, ``"Isolated"``,
-        ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+    :param of: Which elements. If omitted, all elements of the kind that has the attribute are checked. If several kinds
+        have an attribute of this name, the first of these kinds is used: vertices, faces, corners, edges. ``"All"``,
+        ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
     :param component: The index of the component of a vector, starting at 0. Required for vectors.
     :param min: Every value is at least this number.
     :param max: Every value is at most this number.
@@ -176,7 +176,7 @@ def DihedralAngle(
 
 
 def DistanceTo(*, other: Choice | Arg | Ron, below: float | Arg | Ron) -> Choice:
-    """The two-sided Hausdorff distance between the surfaces of the mesh and of another mesh.
+    """The two-sided Hausdorff distance between the surface of the mesh and the surface of another mesh.
 
     The Hausdorff distance is the largest distance from a point of either surface to the other surface. Fails unless the
     distance is proven to be below the limit ``below``.

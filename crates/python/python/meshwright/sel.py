@@ -46,7 +46,7 @@ def And(
 
 
 def Between(a: int | Arg, b: int | Arg, /) -> Choice:
-    """The edge between two vertices, given by their ids.
+    """The edge that joins the two vertices with these ids.
 
     Refused if no edge joins these two vertices.
     """
@@ -107,8 +107,8 @@ def EdgeLoop(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choic
 def EdgeRing(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
     """The given edges and all edge rings through them.
 
-    In a face with four corners, an edge ring passes from an edge to the opposite edge. The ring ends at the boundary
-    and at faces with a different number of corners.
+    In a face with four corners, an edge ring passes from an edge to the opposite edge. The ring ends at the boundary,
+    and at faces that do not have four corners.
     """
     return Choice('EdgeRing', value)
 

@@ -55,7 +55,8 @@ fn an_operation_cancelled_at_its_first_call_changes_nothing() {
         if stop.has_cancelled() && !was_cancelled {
             failures.push(format!("{}: did not stop when cancelled", case.name));
         }
-        // An operation without progress calls cannot be canceled, so it must leave the scene unchanged.
+        // The run was canceled at the first progress call, or the operation made no progress call. In both cases, the
+        // scene must be unchanged.
         if (result.is_ok() || was_cancelled) && scene != case.scene {
             failures.push(format!(
                 "{}: changed the scene before its first progress call",

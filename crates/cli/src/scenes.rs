@@ -22,7 +22,7 @@ pub(crate) struct SceneAtStep {
     pub(crate) stream: String,
 }
 
-/// Whether a file has the extension `.ron`, like recipes.
+/// Whether a file has the extension `.ron`, which marks recipes.
 pub(crate) fn is_recipe(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "ron")
 }

@@ -57,7 +57,8 @@ pub enum Cut {
     Polygon {
         /// The triangles, sorted.
         triangles: Vec<Triangle>,
-        /// Whether the triangles are a fan because the polygon could not be cut or has too many corners.
+        /// Whether the polygon became a fan because it has too many corners, or because no other method can cut it. The
+        /// triangles of a fan have a common vertex.
         is_fan: bool,
     },
 }
@@ -72,7 +73,8 @@ impl Cut {
         }
     }
 
-    /// Whether the triangles are a fan because the polygon could not be cut or has too many corners.
+    /// Whether the polygon became a fan because it has too many corners, or because no other method can cut it. The
+    /// triangles of a fan have a common vertex.
     pub fn is_fan(&self) -> bool {
         matches!(self, Self::Polygon { is_fan: true, .. })
     }

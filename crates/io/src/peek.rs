@@ -156,7 +156,7 @@ pub struct PeekMesh {
     pub is_exact: bool,
 }
 
-/// The ranges of the element counts that a mesh can have after reading.
+/// The possible element counts of a mesh after its file is read, as ranges.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PeekRanges {
     /// The number of vertices.
@@ -190,7 +190,8 @@ pub(crate) fn differ<T: PartialEq>(items: &[T]) -> bool {
 }
 
 impl PeekMesh {
-    /// Returns the ranges of the element counts that the mesh can have after reading with these policies.
+    /// Predicts how many vertices, edges and faces the mesh has after the file is read with these policies. Each
+    /// prediction is a range of possible numbers.
     pub fn ranges(&self, policies: Policies) -> PeekRanges {
         let drops = |policy| policy == CleanupPolicy::Drop && !self.is_exact;
         let faces = match self.simple_faces {

@@ -41,8 +41,8 @@ pub enum Refusal {
     JoinsBoundaries,
     /// Corner attributes differ between the two sides of an edge, and the edit would lose this difference.
     Seam,
-    /// A position on an edge is not strictly between the ends of the edge, or the bevels at the two ends of an edge
-    /// would overlap.
+    /// The position along an edge is outside the range that the edit accepts, or an edge is too short for the bevels at
+    /// its two ends.
     OutsideEdge,
     /// A coordinate or length is not finite, or is outside its range.
     BadNumber,

@@ -241,9 +241,9 @@ impl Recipe {
             .unwrap_or_default()
     }
 
-    /// Returns the file settings of each scope, such as the folder that contains the input files of its steps. For the
-    /// recipe itself, these settings are `files`. A called recipe reads files from its own folder and has its own
-    /// placeholders.
+    /// Returns the file settings of the recipe itself and of each called recipe, such as the folder with the input
+    /// files of its steps. The recipe itself gets the given settings `files`. A called recipe reads files from its own
+    /// folder and has its own placeholders.
     pub fn files(&self, files: &Files) -> Vec<Files> {
         let of = |(i, scope): (usize, &Scope)| {
             if i == 0 {

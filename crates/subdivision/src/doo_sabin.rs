@@ -133,7 +133,8 @@ impl<'a> DooSabin<'a> {
         HalfEdgeId::new(2 * (self.first_join() + self.outer.below(h.index())))
     }
 
-    /// The edges of the half-edges join(h) have the highest ids. Returns the lowest of these ids.
+    /// The new edges that close the faces at boundary vertices (the edges of the half-edges join(h)) have the highest
+    /// ids. Returns the lowest of these ids.
     fn first_join(&self) -> usize {
         4 * self.n_edges - self.doubled.len()
     }

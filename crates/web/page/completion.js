@@ -183,7 +183,8 @@ export class Completions {
         });
     }
 
-    /// Returns the operations that subdivide whole meshes, as examples of steps.
+    /// Returns an example step for each operation that subdivides whole meshes. These are the operations with a
+    /// parameter `levels`.
     subdivisions() {
         return this.#steps(({ name }) => this.#schema.$defs[name]?.properties?.levels);
     }

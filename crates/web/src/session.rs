@@ -261,8 +261,8 @@ impl Session {
             .collect()
     }
 
-    /// Returns the quantities that [`colors`](Self::colors) can show on the meshes of the last run. Each quantity has a
-    /// `title`, and the `quantity` as recipes write it.
+    /// Returns the quantities that [`colors`](Self::colors) can show on the meshes of the last run. Each entry of the
+    /// result has two fields: `title` is a text for users, and `quantity` is the [`Quantity`] as JSON.
     pub fn quantities(&self) -> Json {
         let quantities = Quantity::of_scene(&self.scene).into_iter();
         quantities

@@ -27,8 +27,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cube {
-    /// The name of the new object. Defaults to `cube`. If another object already has this name, defaults to `cube.2`,
-    /// `cube.3` and so on.
+    /// The name of the new object. Defaults to the first of the names `cube`, `cube.2`, `cube.3` and so on that no
+    /// other object has.
     #[serde(default)]
     pub name: Option<String>,
     /// The length of the edges, in scene units. More than 0.

@@ -21,8 +21,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
-    /// The name of the new object. Defaults to `cylinder`. If another object already has this name, defaults to
-    /// `cylinder.2`, `cylinder.3` and so on.
+    /// The name of the new object. Defaults to the first of the names `cylinder`, `cylinder.2`, `cylinder.3` and so on
+    /// that no other object has.
     #[serde(default)]
     pub name: Option<String>,
     /// The number of rectangles around the axis. At least 3. Defaults to 32.

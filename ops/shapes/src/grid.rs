@@ -18,8 +18,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grid {
-    /// The name of the new object. Defaults to `grid`. If another object already has this name, defaults to `grid.2`,
-    /// `grid.3` and so on.
+    /// The name of the new object. Defaults to the first of the names `grid`, `grid.2`, `grid.3` and so on that no
+    /// other object has.
     #[serde(default)]
     pub name: Option<String>,
     /// The number of squares along x. At least 1. Defaults to 10.

@@ -18,8 +18,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Octahedron {
-    /// The name of the new object. Defaults to `octahedron`. If another object already has this name, defaults to
-    /// `octahedron.2`, `octahedron.3` and so on.
+    /// The name of the new object. Defaults to the first of the names `octahedron`, `octahedron.2`, `octahedron.3` and
+    /// so on that no other object has.
     #[serde(default)]
     pub name: Option<String>,
     /// The distance from the center to the vertices, in scene units. More than 0.

@@ -25,8 +25,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {
-    /// The name of the new object. Defaults to `polygons`. If another object already has this name, defaults to
-    /// `polygons.2`, `polygons.3` and so on.
+    /// The name of the new object. Defaults to the first of the names `polygons`, `polygons.2`, `polygons.3` and so on
+    /// that no other object has.
     #[serde(default)]
     pub name: Option<String>,
     /// The points `(x, y, z)`, in scene units. Points that no face uses become isolated vertices.

@@ -20,8 +20,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tetrahedron {
-    /// The name of the new object. Defaults to `tetrahedron`. If another object already has this name, defaults to
-    /// `tetrahedron.2`, `tetrahedron.3` and so on.
+    /// The name of the new object. Defaults to the first of the names `tetrahedron`, `tetrahedron.2`, `tetrahedron.3`
+    /// and so on that no other object has.
     #[serde(default)]
     pub name: Option<String>,
     /// The distance from the center to the vertices, in scene units. More than 0.

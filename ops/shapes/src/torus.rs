@@ -21,8 +21,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {
-    /// The name of the new object. Defaults to `torus`. If another object already has this name, defaults to `torus.2`,
-    /// `torus.3` and so on.
+    /// The name of the new object. Defaults to the first of the names `torus`, `torus.2`, `torus.3` and so on that no
+    /// other object has.
     #[serde(default)]
     pub name: Option<String>,
     /// The number of faces around the z axis. At least 3. Defaults to 32.

@@ -21,8 +21,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvSphere {
-    /// The name of the new object. Defaults to `uvsphere`. If another object already has this name, defaults to
-    /// `uvsphere.2`, `uvsphere.3` and so on.
+    /// The name of the new object. Defaults to the first of the names `uvsphere`, `uvsphere.2`, `uvsphere.3` and so on
+    /// that no other object has.
     #[serde(default)]
     pub name: Option<String>,
     /// The number of meridians. At least 3. Defaults to 32.

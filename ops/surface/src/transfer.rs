@@ -22,11 +22,12 @@ use origins::{Origin, Source};
 ///
 /// The step copies vertex, corner and face attributes from the object `from` to elements of the same kind in the
 /// changed mesh. For each element, the step finds the nearest point on the surface of `from`, and the face that
-/// contains this point. For vertex and corner attributes, numbers and vectors are interpolated inside this face. Whole
-/// numbers, tags, and other attributes that are never interpolated are copied from the corner of this face that is
-/// nearest to the point. Values of faces are copied from this face. If the changed mesh already has the attribute with
-/// the same type of values, the attribute is overwritten. If the changed mesh has the attribute with another type of
-/// values, the step fails. Without `on`, the step changes all meshes except the object `from`.
+/// contains this point. The values of vertex and corner attributes at this point are interpolated between corners of
+/// this face. Attributes that are never interpolated, such as whole numbers and tags, are copied from the corner of
+/// this face that is nearest to the point. Values of face attributes are copied from this face. If the changed mesh
+/// already has the attribute with the same type of values, the attribute is overwritten. If the changed mesh has the
+/// attribute with another type of values, the step fails. Without `on`, the step changes all meshes except the object
+/// `from`.
 ///
 /// Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
 /// same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This prevents

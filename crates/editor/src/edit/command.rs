@@ -162,8 +162,9 @@ impl Editor {
         })
     }
 
-    /// Returns the command that the key of an action starts. If the operation acts on elements, the command contains
-    /// the selection of the picked elements. Returns `None` if the action is not an operation.
+    /// Returns the command of an action, such as `FlipEdges` for [`Action::Flip`]. If the operation acts on elements,
+    /// the command contains the selection of the picked elements. Returns `None` if the action does not start an
+    /// operation.
     pub fn command_of(&mut self, action: Action) -> Option<Command> {
         let kind = self.picked.as_ref().map(crate::Picked::kind);
         let command = match action {

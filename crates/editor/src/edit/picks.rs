@@ -124,7 +124,8 @@ impl Editor {
         }
     }
 
-    /// Chooses the next selection that describes the picked elements. After the last selection, chooses the first.
+    /// Switches to the next of the selections that describe the picked elements, and from the last of them to the
+    /// first.
     pub fn next_proposal(&mut self) {
         let first = self.first_proposal.take();
         self.proposals();

@@ -36,7 +36,7 @@ pub(super) struct Original<'a> {
     pub(super) places: Vec<Place>,
     /// For each vertex, its target valence. Flips change the number of edges at the vertex towards this number.
     pub(super) valences: Vec<u8>,
-    /// For each edge that is a part of a line, its location on a chain (a line between two corners).
+    /// For each edge, the chain that contains the edge. `None` if the edge is not a part of a line.
     pub(super) tracks: Vec<Option<Track>>,
     /// For each face, the index of its chart (a region between lines).
     pub(super) charts: Vec<u32>,
@@ -59,7 +59,7 @@ pub(super) enum Place {
     Inside(u32),
 }
 
-/// The location of an edge on a chain (a line between two corners).
+/// The chain that contains an edge, and the direction of the edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Track {
     pub(super) chain: u32,

@@ -252,7 +252,7 @@ impl Quotient {
         (u32::try_from(degree.min(most)).expect("limited"), hash)
     }
 
-    /// Merges members of the new element that have the same neighbors.
+    /// Compares the variables that are members of the new element, and merges variables that have the same neighbors.
     fn merge_equal(&mut self) {
         let mut hashes = std::mem::take(&mut self.hashes);
         hashes.sort_unstable();

@@ -225,8 +225,9 @@ impl SurfaceIndex {
         (best, None, visits)
     }
 
-    /// Returns the given child node with a tighter lower bound on the squared distance from `p` to its triangles. The
-    /// new bound is at least as large as the given bound, which is the squared distance to the box of the child.
+    /// Improves a lower bound on the squared distance from `p` to the triangles of a child node. The given bound,
+    /// `squared`, is the squared distance to the box of the child. Returns the child with a bound that is at least as
+    /// large.
     fn tighter(&self, p: DVec3, (child, squared): (usize, f64)) -> (usize, f64) {
         let bound = if self.has_thin_triangles() {
             self.oriented_distance_squared(p, child, squared)

@@ -279,9 +279,10 @@ impl Shape {
 
     /// Replaces the shape by its convex hull if two conditions hold: it has more than [`MAX_CONVEX`] triangles, and it
     /// is convex or certainly overlaps itself. The shape certainly overlaps itself if the sum of the areas of its
-    /// triangles is larger than the area of the hull. Returns `true` if the shape certainly overlapped itself and was
-    /// replaced. The replacement saves time: the crate `uvunwrap` compares two triangles if their bounding boxes
-    /// overlap. If a face has many corners, almost all bounding boxes of its triangles can overlap each other.
+    /// triangles is larger than the area of the hull. Returns `true` if the shape was replaced because of an overlap,
+    /// and `false` in all other cases. The replacement saves time: the crate `uvunwrap` compares two triangles if their
+    /// bounding boxes overlap. If a face has many corners, almost all bounding boxes of its triangles can overlap each
+    /// other.
     fn simplify(&mut self) -> bool {
         if self.indices.len() / 3 <= MAX_CONVEX {
             return false;

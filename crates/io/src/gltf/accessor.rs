@@ -299,8 +299,8 @@ impl Reader<'_> {
         Ok((rows, n))
     }
 
-    /// Returns the indices of the elements that the sparse values of the accessor replace, and the bytes of these
-    /// sparse values. Returns `None` if the accessor has no sparse values.
+    /// Sparse values replace some elements of an accessor. Returns the indices of the replaced elements, and the bytes
+    /// of the sparse values. Returns `None` if the accessor has no sparse values.
     fn sparse(&self, index: usize, size: usize) -> Result<Option<(Vec<u32>, Rows<'_>)>, Fault> {
         let accessor = &self.document.accessors[index];
         let Some(sparse) = &accessor.sparse else {

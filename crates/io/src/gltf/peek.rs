@@ -1,4 +1,4 @@
-//! Counts the content of a glTF file from its JSON alone.
+//! Counts the objects in a glTF file, and their elements. Only the JSON of the file is read, not its buffers.
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};

@@ -31,10 +31,11 @@ pub(super) struct Writer<'a> {
     pub(super) accessors: Vec<Value>,
     views: Vec<Value>,
     meshes: Vec<Value>,
-    /// The index of the mesh of each object that is written. The key is the name of the object.
+    /// For each written object that has faces, the index of its mesh in `meshes`. The key is the name of the object.
     pub(super) mesh_of: BTreeMap<&'a str, usize>,
     pub(super) nodes: NodeList,
-    /// The deformation of each object that is written. The key is the name of the object.
+    /// For each written object that has faces, whether its joints are written, and how many of its morph targets. The
+    /// key is the name of the object.
     pub(super) deformed: BTreeMap<&'a str, Deformed>,
     /// For each array that was written, the index of its accessor. The key consists of the index of the array, the
     /// number of components of each element, and the total number of components.

@@ -26,8 +26,8 @@ pub(super) const POLYLINES: &str = "polylines (`l`) left out: the object is a me
 ///
 /// # Errors
 ///
-/// Returns an error for the first line that violates the format. If all lines are valid, returns an error for the first
-/// library whose path is not inside the folder of the file.
+/// Returns an error if a line violates the format; the error describes the first such line. Also returns an error if a
+/// material library is needed but its path is not inside the folder of the OBJ file.
 pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Result<Shape, Fault> {
     let mut file = parse(bytes)?;
     note_left_out(&file, notes);

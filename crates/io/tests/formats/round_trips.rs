@@ -31,9 +31,9 @@ enum Outcome {
     Exactly,
     /// The numbers of the content are rounded to 32 bits.
     Rounded,
-    /// The content has a different form after reading, and no loss reports the change.
+    /// The content has a different form after reading. Writing does not report this as a loss.
     Changed,
-    /// Some or all of the content is not restored, and a loss reports it.
+    /// At least a part of the content is missing or different after reading. Writing reports this as a loss.
     Lost,
     /// Writing fails.
     Refused,

@@ -49,8 +49,8 @@ pub fn morph_tangent_name(target: usize) -> String {
     format!("{MORPH_TANGENT}{target}")
 }
 
-/// Returns the name of the attribute that stores how a morph target changes the attribute `changed` (texture
-/// coordinates or colors).
+/// A morph target can change texture coordinates and colors. The changes are stored in an attribute of their own; this
+/// function returns its name. The parameter `changed` is the name of the attribute that the morph target changes.
 pub fn morph_value_name(changed: &str, target: usize) -> String {
     format!("{MORPH_VALUE}{changed}:{target}")
 }

@@ -211,8 +211,8 @@ impl Mesh {
         require(self.face(h).is_none(), EditError::NotBoundary(h))
     }
 
-    /// Checks that there are ids for this many additional half-edges. An edit that calls this function adds at most as
-    /// many vertices as half-edges, and at most as many faces as half-edges.
+    /// Checks that the number of half-edges and the number of vertices can each grow by `half_edges` without running
+    /// out of ids. A caller must add at most `half_edges` half-edges, and no more vertices or faces than half-edges.
     fn check_room(&self, half_edges: usize) -> Result<(), EditError> {
         let n = self.connectivity.next.len().max(self.positions.len()) + half_edges;
         require(n < u32::MAX as usize, EditError::Full)

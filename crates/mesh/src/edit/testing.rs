@@ -81,8 +81,8 @@ pub(super) fn spur() -> Mesh {
     )
 }
 
-/// Returns a mesh with these edges and loops of half-edges. The first loop is the only face. `outgoing` has a
-/// half-edge for each vertex.
+/// Returns a mesh with these edges and loops of half-edges. The mesh has one face, inside the first loop. The other
+/// loops have no face. `outgoing` contains one outgoing half-edge of each vertex.
 fn of_one_face(edges: &[[usize; 2]], loops: &[&[usize]], outgoing: &[usize]) -> Mesh {
     let mut mesh = Mesh::default();
     let vertices: Vec<VertexId> = (0..outgoing.len())

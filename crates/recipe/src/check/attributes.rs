@@ -1,9 +1,9 @@
 //! Checks the attributes of meshes before and after each step. The meshes must have the attributes that a step needs,
 //! and a step must not lose attributes unless `on_loss` allows it.
 //!
-//! The plan of a step predicts which attributes the step keeps, adds and drops. An attribute is lost if a mesh
-//! certainly has it before the step, but the plan does not list it for the mesh after the step. An attribute is missing
-//! if all attributes of the mesh are known but this attribute is not among them.
+//! The plan of a step predicts which attributes each mesh has after the step. A step certainly loses an attribute of a
+//! mesh if the mesh certainly has the attribute before the step, and the plan does not contain it. A mesh lacks an
+//! attribute if all attributes of the mesh are known, and this attribute is not one of them.
 
 use std::collections::HashMap;
 

@@ -87,7 +87,7 @@ impl CheckedMesh<'_> {
                 let mut off: Vec<(f64, FaceId)> = angles
                     .filter(|(angle, _)| !within(*angle, *min, None))
                     .collect();
-                // The message gives the smallest angle, so the face with this angle comes first.
+                // The face with the smallest angle comes first, because the message of the violation names this angle.
                 off.sort_by(|a, b| a.0.total_cmp(&b.0));
                 self.locations(off.into_iter().map(|(_, f)| f))
             }

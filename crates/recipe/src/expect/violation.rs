@@ -12,7 +12,8 @@ use mesh::DVec3;
 pub struct Violation {
     /// The expected and the actual value, or the reason why the evaluation failed, in one line.
     pub message: String,
-    /// The actual value, if the expectation would hold with the actual value in place of the expected value.
+    /// The actual value. If it replaces the expected value in the recipe, the expectation holds. `None` if no
+    /// replacement is possible.
     pub found: Option<ActualValue>,
     /// Whether the expectation could not be checked, for example because a file cannot be read. In this case, `Not(..)`
     /// of the expectation does not hold either.

@@ -47,8 +47,8 @@ pub trait CachedRun {
         time: Duration,
     ) -> RerunReason;
 
-    /// Searches the stored scenes after the steps `from + 1` to `to` (counted from 1), and loads the latest of them.
-    /// Returns the number of steps before this scene, and the scene.
+    /// Loads the latest stored scene that results from one of the steps `from + 1` to `to` (counted from 1). Returns
+    /// the number of this step, and the scene. Returns `None` if no such scene can be loaded.
     fn load_scene(&mut self, from: usize, to: usize) -> Option<(usize, Scene)>;
 
     /// Whether the step with the index `index` leaves the scene unchanged. Indices start at 0.

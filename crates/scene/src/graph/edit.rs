@@ -191,8 +191,8 @@ impl Graph {
         graph
     }
 
-    /// Removes the nodes whose flag in `keep` is false. The flag must be true for joints, for roots of the joints of
-    /// skins, and for the parents of kept nodes.
+    /// Removes each node whose flag in `keep` is false. The flags of all nodes in [`joint_flags`](Self::joint_flags)
+    /// must be true. If the flag of a node is true, the flag of its parent must be true, too.
     fn keep_nodes(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places = keep.iter().map(|&is_kept| {

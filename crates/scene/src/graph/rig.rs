@@ -90,7 +90,7 @@ pub enum AnimatedProperty {
 }
 
 impl Interpolation {
-    /// All interpolation modes. The index of a mode is its code in the canonical form.
+    /// All interpolation modes. In the canonical form of a scene, a mode is encoded as its index in this array.
     pub(crate) const ALL: [Self; 3] = [Self::Linear, Self::Step, Self::CubicSpline];
 
     /// Returns the name in glTF.
@@ -112,7 +112,7 @@ impl Interpolation {
 }
 
 impl AnimatedProperty {
-    /// All properties. The index of a property is its code in the canonical form.
+    /// All properties. In the canonical form of a scene, a property is encoded as its index in this array.
     pub(crate) const ALL: [Self; 4] = [
         Self::Translation,
         Self::Rotation,

@@ -110,8 +110,8 @@ impl Sharpness {
                 .collect()
         };
         let halves = halves_of(&|e| edges[e]);
-        // The sharpness that is stored for a boundary edge does not shape the surface. On each level, it decreases by
-        // the uniform rule.
+        // The rules treat boundary edges as infinitely sharp, so their stored sharpness does not change the surface. On
+        // each level, the stored sharpness decreases by the uniform rule.
         let mut stored_halves: BTreeMap<Edge, [f64; 2]> = halves_of(&stored);
         for (e, halves) in &mut stored_halves {
             if adjacency.is_boundary_edge(*e) {

@@ -267,7 +267,7 @@ impl Parts {
             .is_some_and(|since| since.elapsed() >= LONG)
     }
 
-    /// Returns the places of the failures of the newest run, in the scene.
+    /// Returns the locations in the scene that the failures of the newest run refer to.
     fn places_of_errors(&self) -> Vec<ErrorLocation> {
         let failures = self.editor.run().failures.iter();
         failures

@@ -42,8 +42,8 @@ impl Pairs {
         cx.advance("find coinciding edges", 0, total)?;
         let mut matches = vec![Matches::None; rims.len()];
         // The cells around an edge form nine rows of three cells. For each row, `begins` contains the index in `rims`
-        // at which the edges of the row begin. The edges are visited in the order of their cells, so the indices in
-        // `begins` never decrease.
+        // at which the edges of the row begin. The edges are visited in the order of their cells, so these indices
+        // never decrease from one edge to the next.
         let mut begins = [0; 9];
         for (i, rim) in rims.iter().enumerate() {
             matches[rim.number] = matches_of(&rims, rim, &mut begins, distance);
@@ -117,8 +117,9 @@ fn cell(place: DVec3) -> [i64; 3] {
     place.to_array().map(|x| x.floor().min(1e12) as i64)
 }
 
-/// Finds the boundary half-edges that coincide with `rim`. `begins` contains nine indices: the positions in `rims` at
-/// which the nine rows of cells around the previous edge begin. They are updated for the edge `rim`.
+/// Finds the boundary half-edges that coincide with `rim`. The cell of `rim` and its neighbors form nine rows of three
+/// cells. For each row, the function searches `rims` from the index in `begins`, and stores the index at which the row
+/// begins. The next call can therefore start there, if its `rim` is at a later place in `rims`.
 fn matches_of(rims: &[Rim], rim: &Rim, begins: &mut [usize; 9], distance: f64) -> Matches {
     let mut matches = Matches::None;
     let [x, y, z] = rim.cell;

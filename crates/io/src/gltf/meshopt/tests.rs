@@ -57,7 +57,8 @@ fn decode(compressed: &Compressed, stream: &[u8]) -> Result<Vec<u8>, String> {
     decoded.map_err(|error| error.message)
 }
 
-/// Whether two arrays are equal. If the filter rounds, the values can differ by one unit in the last place.
+/// Whether two arrays are equal. The filters `Octahedral`, `Quaternion` and `Color` round to integers. For these
+/// filters, two integers also count as equal if they differ by 1.
 fn is_near(filter: Filter, stride: u64, a: &[u8], b: &[u8]) -> bool {
     let short = |bytes: &[u8]| i32::from(i16::from_le_bytes([bytes[0], bytes[1]]));
     let mut pairs = a.chunks(2).zip(b.chunks(2));

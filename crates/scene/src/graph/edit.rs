@@ -191,8 +191,8 @@ impl Graph {
         graph
     }
 
-    /// Removes each node whose flag in `keep` is false. The flags of all nodes in [`joint_flags`](Self::joint_flags)
-    /// must be true. If the flag of a node is true, the flag of its parent must be true, too.
+    /// Removes each node whose flag in `keep` is false. The flag of each joint must be true, and so must the flag of
+    /// each root of the joints of a skin. If the flag of a node is true, the flag of its parent must be true, too.
     fn keep_nodes(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places = keep.iter().map(|&is_kept| {

@@ -195,8 +195,8 @@ class SceneOperations:
         :param points: The points ``(x, y, z)``, in scene units. Points that no face uses become isolated vertices.
         :param faces: The faces. Each face lists the indices of its points, in counter-clockwise order as seen from
             outside. The first of the ``points`` has the index 0. A face has at least three points, without duplicates.
-        :param name: The name of the new object. Defaults to ``polygons``. If another object already has this name,
-            defaults to ``polygons.2``, ``polygons.3`` and so on.
+        :param name: The name of the new object. Defaults to the first of the names ``polygons``, ``polygons.2``,
+            ``polygons.3`` and so on that no other object has.
         :param id, progress: See :meth:`Scene.apply`.
         """
         return self._apply('Polygons', {'name': name, 'points': points, 'faces': faces}, None, id, progress)
@@ -221,8 +221,8 @@ class SceneOperations:
         Example: ``scene.cube(name="new", size=3, center=(1, 2, 3))``, in a recipe ``Cube(name: "new", size: 3, center:
         (1, 2, 3))``
 
-        :param name: The name of the new object. Defaults to ``cube``. If another object already has this name, defaults
-            to ``cube.2``, ``cube.3`` and so on.
+        :param name: The name of the new object. Defaults to the first of the names ``cube``, ``cube.2``, ``cube.3`` and
+            so on that no other object has.
         :param size: The length of the edges, in scene units. More than 0. Defaults to ``2.0``.
         :param center: The center of the cube, in scene units.
         :param triangles: Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a,
@@ -248,8 +248,8 @@ class SceneOperations:
 
         Example: ``scene.tetrahedron(name="new")``, in a recipe ``Tetrahedron(name: "new")``
 
-        :param name: The name of the new object. Defaults to ``tetrahedron``. If another object already has this name,
-            defaults to ``tetrahedron.2``, ``tetrahedron.3`` and so on.
+        :param name: The name of the new object. Defaults to the first of the names ``tetrahedron``, ``tetrahedron.2``,
+            ``tetrahedron.3`` and so on that no other object has.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the tetrahedron, in scene units.
         :param id, progress: See :meth:`Scene.apply`.
@@ -271,8 +271,8 @@ class SceneOperations:
 
         Example: ``scene.octahedron(name="new")``, in a recipe ``Octahedron(name: "new")``
 
-        :param name: The name of the new object. Defaults to ``octahedron``. If another object already has this name,
-            defaults to ``octahedron.2``, ``octahedron.3`` and so on.
+        :param name: The name of the new object. Defaults to the first of the names ``octahedron``, ``octahedron.2``,
+            ``octahedron.3`` and so on that no other object has.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the octahedron, in scene units.
         :param id, progress: See :meth:`Scene.apply`.
@@ -295,8 +295,8 @@ class SceneOperations:
 
         Example: ``scene.icosahedron(name="new")``, in a recipe ``Icosahedron(name: "new")``
 
-        :param name: The name of the new object. Defaults to ``icosahedron``. If another object already has this name,
-            defaults to ``icosahedron.2``, ``icosahedron.3`` and so on.
+        :param name: The name of the new object. Defaults to the first of the names ``icosahedron``, ``icosahedron.2``,
+            ``icosahedron.3`` and so on that no other object has.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the icosahedron, in scene units.
         :param id, progress: See :meth:`Scene.apply`.
@@ -320,8 +320,8 @@ class SceneOperations:
 
         Example: ``scene.grid(name="new", columns=3, rows=2)``, in a recipe ``Grid(name: "new", columns: 3, rows: 2)``
 
-        :param name: The name of the new object. Defaults to ``grid``. If another object already has this name, defaults
-            to ``grid.2``, ``grid.3`` and so on.
+        :param name: The name of the new object. Defaults to the first of the names ``grid``, ``grid.2``, ``grid.3`` and
+            so on that no other object has.
         :param columns: The number of squares along x. At least 1. Defaults to 10.
         :param rows: The number of squares along y. At least 1. Defaults to 10.
         :param size: The side length of a square, in scene units. More than 0. Defaults to ``1.0``.
@@ -352,8 +352,8 @@ class SceneOperations:
         Example: ``scene.torus(name="new", around=7, across=5, major=2, minor=0.5)``, in a recipe ``Torus(name: "new",
         around: 7, across: 5, major: 2, minor: 0.5)``
 
-        :param name: The name of the new object. Defaults to ``torus``. If another object already has this name,
-            defaults to ``torus.2``, ``torus.3`` and so on.
+        :param name: The name of the new object. Defaults to the first of the names ``torus``, ``torus.2``, ``torus.3``
+            and so on that no other object has.
         :param around: The number of faces around the z axis. At least 3. Defaults to 32.
         :param across: The number of faces around the tube. At least 3. Defaults to 16.
         :param major: The distance from the z axis to the center of the tube, in scene units. More than 0. Defaults to
@@ -387,8 +387,8 @@ class SceneOperations:
         Example: ``scene.cylinder(name="new", around=6, radius=1, height=2, caps=True)``, in a recipe ``Cylinder(name:
         "new", around: 6, radius: 1, height: 2, caps: true)``
 
-        :param name: The name of the new object. Defaults to ``cylinder``. If another object already has this name,
-            defaults to ``cylinder.2``, ``cylinder.3`` and so on.
+        :param name: The name of the new object. Defaults to the first of the names ``cylinder``, ``cylinder.2``,
+            ``cylinder.3`` and so on that no other object has.
         :param around: The number of rectangles around the axis. At least 3. Defaults to 32.
         :param radius: The distance from the axis to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param height: The height along z, in scene units. More than 0. Defaults to ``2.0``.
@@ -418,8 +418,8 @@ class SceneOperations:
         Example: ``scene.uv_sphere(name="new", around=8, rings=4, radius=2)``, in a recipe ``UvSphere(name: "new",
         around: 8, rings: 4, radius: 2)``
 
-        :param name: The name of the new object. Defaults to ``uvsphere``. If another object already has this name,
-            defaults to ``uvsphere.2``, ``uvsphere.3`` and so on.
+        :param name: The name of the new object. Defaults to the first of the names ``uvsphere``, ``uvsphere.2``,
+            ``uvsphere.3`` and so on that no other object has.
         :param around: The number of meridians. At least 3. Defaults to 32.
         :param rings: The number of bands of faces from pole to pole. At least 2. Defaults to 16.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
@@ -2494,12 +2494,12 @@ class SceneOperations:
 
         The operation copies vertex, corner and face attributes from the object ``from_`` to elements of the same kind
         in the changed mesh. For each element, the operation finds the nearest point on the surface of ``from_``, and
-        the face that contains this point. For vertex and corner attributes, numbers and vectors are interpolated inside
-        this face. Whole numbers, tags, and other attributes that are never interpolated are copied from the corner of
-        this face that is nearest to the point. Values of faces are copied from this face. If the changed mesh already
-        has the attribute with the same type of values, the attribute is overwritten. If the changed mesh has the
-        attribute with another type of values, the operation fails. Without ``on``, a method of a scene changes all
-        meshes except the object ``from_``.
+        the face that contains this point. The values of vertex and corner attributes at this point are interpolated
+        between corners of this face. Attributes that are never interpolated, such as whole numbers and tags, are copied
+        from the corner of this face that is nearest to the point. Values of face attributes are copied from this face.
+        If the changed mesh already has the attribute with the same type of values, the attribute is overwritten. If the
+        changed mesh has the attribute with another type of values, the operation fails. Without ``on``, a method of a
+        scene changes all meshes except the object ``from_``.
 
         Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
         same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This
@@ -5038,11 +5038,11 @@ class MeshOperations:
 
         The operation copies vertex, corner and face attributes from the mesh ``from_`` to elements of the same kind in
         the changed mesh. For each element, the operation finds the nearest point on the surface of ``from_``, and the
-        face that contains this point. For vertex and corner attributes, numbers and vectors are interpolated inside
-        this face. Whole numbers, tags, and other attributes that are never interpolated are copied from the corner of
-        this face that is nearest to the point. Values of faces are copied from this face. If the changed mesh already
-        has the attribute with the same type of values, the attribute is overwritten. If the changed mesh has the
-        attribute with another type of values, the operation fails.
+        face that contains this point. The values of vertex and corner attributes at this point are interpolated between
+        corners of this face. Attributes that are never interpolated, such as whole numbers and tags, are copied from
+        the corner of this face that is nearest to the point. Values of face attributes are copied from this face. If
+        the changed mesh already has the attribute with the same type of values, the attribute is overwritten. If the
+        changed mesh has the attribute with another type of values, the operation fails.
 
         Seams divide the source object into charts. All corners of a face of the changed mesh take their values from the
         same chart. If a seam lies inside this chart, they take their values from the same side of the seam. This

@@ -8,11 +8,11 @@ use crate::attribute::{
 };
 use crate::journal::{Entry, Journal};
 use crate::marks::Marks;
-use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, VertexId};
+use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, VertexId, parallel};
 
 /// The five arrays that store how the elements of a mesh are connected. The crate's documentation lists the
 /// invariants of these arrays.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Debug, Default, PartialEq, Eq)]
 pub struct Connectivity {
     /// For each half-edge, the half-edge that follows it around its face, or around its hole.
     pub next: Vec<HalfEdgeId>,
@@ -25,6 +25,18 @@ pub struct Connectivity {
     pub vertex_half_edge: Vec<HalfEdgeId>,
     /// For each face, one of its half-edges.
     pub face_half_edge: Vec<HalfEdgeId>,
+}
+
+impl Clone for Connectivity {
+    fn clone(&self) -> Self {
+        Self {
+            next: parallel::copied(&self.next),
+            origin: parallel::copied(&self.origin),
+            face: parallel::copied(&self.face),
+            vertex_half_edge: parallel::copied(&self.vertex_half_edge),
+            face_half_edge: parallel::copied(&self.face_half_edge),
+        }
+    }
 }
 
 impl Connectivity {
@@ -74,7 +86,7 @@ impl Clone for Mesh {
     fn clone(&self) -> Self {
         Self {
             connectivity: self.connectivity.clone(),
-            positions: self.positions.clone(),
+            positions: parallel::copied(&self.positions),
             attributes: self.attributes.clone(),
             dead: self.dead.clone(),
             journal: None,

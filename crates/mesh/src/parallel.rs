@@ -113,6 +113,12 @@ pub fn collect<T: Send>(n: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     all
 }
 
+/// Returns a copy of a list. For large lists, this function takes less than half the time of `clone`, because the memory
+/// of the copy is requested in large pages, and several threads fill it.
+pub fn copied<T: Copy + Send + Sync>(all: &[T]) -> Vec<T> {
+    collect(all.len(), |i| all[i])
+}
+
 /// Calls `change` for each value of a list.
 pub fn change<T: Send>(all: &mut [T], change: impl Fn(&mut T) + Sync) {
     fill(all, |_, block| block.iter_mut().for_each(&change));

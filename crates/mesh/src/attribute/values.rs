@@ -13,7 +13,7 @@ type Weights<'a> = dyn Fn(usize, &mut dyn FnMut(usize, f64)) + Sync + 'a;
 const NO_SOURCE: usize = usize::MAX;
 
 /// The values of a column, one for each element of its domain.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub enum Values {
     /// One number for each element.
     Float(Vec<f64>),
@@ -41,6 +41,12 @@ macro_rules! each {
             Values::Tag($v) => $body,
         }
     };
+}
+
+impl Clone for Values {
+    fn clone(&self) -> Self {
+        each!(self, v => Value::wrap(parallel::copied(v)))
+    }
 }
 
 impl Values {

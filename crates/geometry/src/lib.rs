@@ -61,7 +61,7 @@ pub use laplacian::Laplacian;
 pub use measure::{
     area, bounds, components, genus, n_components, sin_cos_degrees, valences, volume,
 };
-pub use merge::{MergeError, Merged, clusters, merge_clusters, merge_vertices};
+pub use merge::{MergeError, Merged, clusters, first_equal, merge_clusters, merge_vertices};
 pub use part::{face_components, parts, separated};
 pub use sample::{Sample, samples};
 pub use scaled::Scaled;

@@ -17,6 +17,7 @@
 use mesh::DVec3;
 use progress::{Cancelled, Meter, Progress};
 
+use super::equal::first_equal;
 use super::union_find::UnionFind;
 
 /// A box with at most this number of points is not split, because comparing all pairs of its points is faster.
@@ -42,6 +43,11 @@ pub fn clusters(
     let n = u32::try_from(positions.len()).expect("ids of a mesh fit 32 bits");
     let meter = Meter::new(progress, "weld", u64::from(n)).every(TASK as u64);
     meter.add(0)?;
+    if distance == 0.0 {
+        let lowest = first_equal(positions);
+        meter.finish()?;
+        return Ok(lowest);
+    }
     let mut points: Vec<Point> = positions
         .iter()
         .zip(0..)
@@ -146,7 +152,7 @@ struct Reach {
     /// A power of two. The distance times this power is near 1, so that the square of the product neither overflows nor
     /// underflows.
     scale: f64,
-    /// The square of the scaled distance; 0 for the distance 0.
+    /// The square of the scaled distance.
     squared: f64,
 }
 
@@ -164,12 +170,7 @@ impl Reach {
     /// Whether the length of `difference` is at most one step (the given distance). If the result is true for one
     /// difference, the result is also true for every difference whose coordinates have smaller absolute values.
     fn covers(&self, difference: DVec3) -> bool {
-        if self.squared == 0.0 {
-            // Does not compute the squared length, because the square of a tiny difference can be rounded to 0.
-            difference == DVec3::ZERO
-        } else {
-            (self.scale * difference).length_squared() <= self.squared
-        }
+        (self.scale * difference).length_squared() <= self.squared
     }
 }
 

@@ -12,6 +12,7 @@
 //! and rebuilds the mesh from its polygons.
 
 mod cluster;
+mod equal;
 pub(crate) mod union_find;
 
 use mesh::{
@@ -21,6 +22,7 @@ use mesh::{
 use progress::{Cancelled, Progress};
 
 pub use cluster::clusters;
+pub use equal::first_equal;
 
 /// The result of merging: counts of merged vertices and changed faces.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

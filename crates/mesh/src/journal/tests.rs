@@ -36,7 +36,10 @@ fn edit(mesh: &mut Mesh, (kind, i): (u8, usize)) {
             Ok(())
         }
         4 => {
-            mesh.positions_mut()[0] *= 2.0;
+            // The mesh has no vertices after all its faces were deleted.
+            if let Some(position) = mesh.positions_mut().first_mut() {
+                *position *= 2.0;
+            }
             Ok(())
         }
         5 => {

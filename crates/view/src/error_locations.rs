@@ -34,8 +34,8 @@ const HIDDEN: f64 = 0.4;
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;
-/// If a scene has more faces than this maximum, the overview does not draw edges, because so many edges would cover the
-/// surface.
+/// The maximum number of faces in a scene for which the overview draws edges. In scenes with more faces, the edges would
+/// cover the surface.
 const MAX_FACES_WITH_EDGES: usize = 5_000;
 /// The tangent of half of 25 degrees, the default field of view.
 const TANGENT: f64 = 0.221_694_662_642_939_43;

@@ -13,6 +13,8 @@
 //! for tiny distances, and a million points in one cell would need about 10^12 comparisons. In the tree, a box of equal
 //! or very close points becomes a cluster immediately, for any number of points. The search only computes differences
 //! of coordinates. For nearby points, these differences neither overflow nor lose precision.
+//!
+//! For the distance 0, [`first_equal`] finds the clusters without a tree.
 
 use mesh::DVec3;
 use progress::{Cancelled, Meter, Progress};

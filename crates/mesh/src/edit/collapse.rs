@@ -86,7 +86,9 @@ impl Mesh {
             return Err(EditError::OutsideEdge(t));
         }
         let [a, b] = self.edge_vertices(e).map(|v| self.position(v));
-        self.collapse(e, t, (1.0 - t) * a + t * b)
+        let point = (1.0 - t) * a + t * b;
+        self.check_collapse_to(e, point)?;
+        Ok(self.collapse(e, t, point))
     }
 
     /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), but to any given point. The attributes are
@@ -98,16 +100,39 @@ impl Mesh {
     /// Returns an error in the same cases as [`collapse_edge`](Self::collapse_edge), and [`EditError::BadNumber`] if a
     /// coordinate is not finite.
     pub fn collapse_edge_to(&mut self, e: EdgeId, point: DVec3) -> Result<VertexId, EditError> {
+        self.check_collapse_to(e, point)?;
+        Ok(self.collapse_checked_edge_to(e, point))
+    }
+
+    /// Checks whether [`collapse_edge_to`](Self::collapse_edge_to) would succeed.
+    ///
+    /// # Errors
+    ///
+    /// Returns the error that [`collapse_edge_to`](Self::collapse_edge_to) would return.
+    pub fn check_collapse_to(&self, e: EdgeId, point: DVec3) -> Result<(), EditError> {
         self.check_edge(e)?;
+        check_finite(&[point])?;
+        self.check_collapse(e)
+    }
+
+    /// Collapses an edge like [`collapse_edge_to`](Self::collapse_edge_to), but without any check. Call this function
+    /// only if [`check_collapse_to`](Self::check_collapse_to) succeeds. Several threads can check many edges, before
+    /// these edges are collapsed one after the other. In a mesh of triangles, a collapse does not change the result of
+    /// the check for another edge, provided that no end of the other edge is an end of the collapsed edge or a neighbor
+    /// of such an end.
+    ///
+    /// # Panics
+    ///
+    /// Debug builds panic if the check does not succeed. In release builds, the mesh becomes invalid.
+    pub fn collapse_checked_edge_to(&mut self, e: EdgeId, point: DVec3) -> VertexId {
+        debug_assert_eq!(self.check_collapse_to(e, point), Ok(()));
         let [a, b] = self.edge_vertices(e).map(|v| self.position(v));
         let t = (point - a).dot(b - a) / (b - a).length_squared();
         let t = if t.is_nan() { 0.5 } else { t.clamp(0.0, 1.0) };
         self.collapse(e, t, point)
     }
 
-    fn collapse(&mut self, e: EdgeId, t: f64, point: DVec3) -> Result<VertexId, EditError> {
-        check_finite(&[point])?;
-        self.check_collapse(e)?;
+    fn collapse(&mut self, e: EdgeId, t: f64, point: DVec3) -> VertexId {
         let sides = e.half_edges();
         let [a, b] = self.edge_vertices(e);
         let (v, removed) = (a.min(b), a.max(b));
@@ -139,7 +164,7 @@ impl Mesh {
                 self.remove_two_gon(before[i], after);
             }
         }
-        Ok(v)
+        v
     }
 
     // ---- Checks --------------------------------------------------------------------------------

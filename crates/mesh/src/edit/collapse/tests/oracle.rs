@@ -195,6 +195,42 @@ fn both_implementations_agree_on_random_meshes() {
     assert!(outcomes["done"] > 3000, "{outcomes:?}");
 }
 
+#[test]
+fn a_collapse_does_not_change_whether_far_edges_of_triangle_meshes_can_be_collapsed() {
+    let mut random = Random(3);
+    let (mut n_pairs, mut n_refused) = (0, 0);
+    for _ in 0..40 {
+        for mesh in samples() {
+            let mut mesh = shapes::fans(&mesh);
+            for _ in 0..6 {
+                random_edit(&mut mesh, &mut random);
+            }
+            if !mesh.faces().all(|f| mesh.is_triangle(f)) {
+                continue;
+            }
+            let can_collapse = |mesh: &Mesh, e| mesh.check_collapse_to(e, DVec3::ZERO).is_ok();
+            for e in mesh.edges().filter(|&e| can_collapse(&mesh, e)) {
+                let mut near: Vec<_> = mesh.edge_vertices(e).into();
+                near.extend(
+                    mesh.edge_vertices(e)
+                        .iter()
+                        .flat_map(|&v| mesh.vertex_neighbors(v)),
+                );
+                let mut edited = mesh.clone();
+                edited.collapse_checked_edge_to(e, DVec3::ZERO);
+                let is_far = |&e: &EdgeId| !mesh.edge_vertices(e).iter().any(|v| near.contains(v));
+                for far in mesh.edges().filter(is_far) {
+                    let is_possible = can_collapse(&mesh, far);
+                    assert_eq!(can_collapse(&edited, far), is_possible, "{e} {far}");
+                    n_pairs += 1;
+                    n_refused += usize::from(!is_possible);
+                }
+            }
+        }
+    }
+    assert!(n_pairs > 1000 && n_refused > 100, "{n_pairs} {n_refused}");
+}
+
 /// Collapses an edge with both implementations and compares the results. Returns the name of the outcome.
 fn compare(mesh: &Mesh, topology: Option<&Topology>, e: EdgeId) -> String {
     let mut edited = mesh.clone();

@@ -65,7 +65,7 @@ impl Lods {
 
 impl Operation for Lods {
     const NAME: &'static str = "Lods";
-    const VERSION: u32 = 3;
+    const VERSION: u32 = 4;
     const SUMMARY: &'static str = "Make levels of detail: simplified copies of an object";
     const EXAMPLE: &'static str = r#"Lods(from: "mesh", ratios: [0.5, 0.25])"#;
     const WORDS: &'static [&'static str] = &["lod", "level of detail"];

@@ -172,7 +172,7 @@ pub(crate) fn unreached(n_faces: usize, goal: u64, blocked: &[(Blocked, usize)])
 
 impl MeshOperation for Simplify {
     const NAME: &'static str = "Simplify";
-    const VERSION: u32 = 3;
+    const VERSION: u32 = 4;
     const SUMMARY: &'static str = "Remove triangles, and change the surface as little as possible";
     const EXAMPLE: &'static str = "Simplify(ratio: 0.5)";
     const WORDS: &'static [&'static str] = &["decimate", "reduce", "quadric", "lod", "polycount"];

@@ -14,7 +14,7 @@
 //! Most of the time is spent waiting for memory. Therefore the memory for the next edges is prefetched, and the mesh is
 //! compacted whenever half of its faces are gone.
 
-use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, parallel, prefetch};
+use mesh::{DVec3, Domain, EdgeId, FaceId, HalfEdgeId, parallel, prefetch};
 use progress::{Cancelled, Meter, Progress};
 
 use crate::lines::Kind;
@@ -23,7 +23,6 @@ use super::Blocked;
 use super::appearance::Merge;
 use super::collapser::{Collapser, Node, State};
 use super::queue::{Entry, Level, level_of};
-use super::target::Target;
 
 /// The number of edges in a batch. With smaller batches, threads wait for each other more often: with 1024 edges, a
 /// torus of 1,000,000 triangles takes 1.3 times as long on two processors.
@@ -36,9 +35,21 @@ const AHEAD: usize = 8;
 /// edges, waking a thread would take longer than visiting the edges.
 const PART: usize = 2048;
 
+/// A pass visits [`FAR_LEVELS`] levels of the queue while the mesh has more than `FAR` times the requested number of
+/// faces. Later collapses move the surface much farther than these early ones, so the exact order of the early collapses
+/// matters little. With an error limit, every pass visits one level: for the same limit, coarser levels leave up to a
+/// tenth more triangles.
+const FAR: usize = 2;
+
+/// See [`FAR`]. A torus of 1,000,000 triangles, reduced to a sixteenth, takes 0.8 of the time that passes over single
+/// levels take. In six models, reduced to a tenth and to a fiftieth of their triangles, the distance between the original
+/// and the result stays the same on average.
+const FAR_LEVELS: usize = 4;
+
 /// The data that is computed for an allowed collapse before the mesh changes.
 struct Plan {
-    target: Target,
+    /// The new position, in the coordinates of the mesh.
+    point: DVec3,
     /// The faces around the edge that remain after the collapse, with new bounds on their distance to the original
     /// surface.
     errors: Vec<(FaceId, f64)>,
@@ -72,11 +83,13 @@ impl Collapser<'_> {
             if self.mesh.domain_len(Domain::Face) > 2 * self.n_faces {
                 self.compact();
             }
-            if !self.queue.next_pass(&mut edges) {
+            let is_far = self.n_faces / FAR > self.options.faces && self.options.error.is_none();
+            if !self
+                .queue
+                .next_pass(if is_far { FAR_LEVELS } else { 1 }, &mut edges)
+            {
                 break;
             }
-            // Edges with near ids are often near in memory too, so visiting them in this order is faster.
-            edges.sort_by_key(|entry| entry.edge);
             for batch in edges.chunks(BATCH) {
                 if self.n_faces <= self.options.faces {
                     break;
@@ -210,10 +223,8 @@ impl Collapser<'_> {
     /// Returns the edges that are collapsed next. Puts the other candidates back into the queue.
     fn choose(&mut self, candidates: &[Entry]) -> Vec<EdgeId> {
         let pass = self.queue.pass();
-        let edges: Vec<EdgeId> = candidates.iter().map(|entry| entry.edge).collect();
         let mut chosen = Vec::new();
-        for (i, &entry) in candidates.iter().enumerate() {
-            self.mesh.fetch_ahead(&edges, i);
+        for &entry in candidates {
             let ends = self.mesh.edge_vertices(entry.edge);
             // The cost of an edge usually grows when edges near it collapse. Edges near a collapse wait for the next
             // pass, so that the collapses of a pass are spread over the surface.
@@ -246,27 +257,28 @@ impl Collapser<'_> {
         }
     }
 
-    /// Checks whether the collapse of an edge is allowed, and computes the data for the collapse. Topology and
-    /// intersections are checked later, in `collapse`.
+    /// Checks whether the collapse of an edge is allowed, and computes the data for the collapse. Intersections are
+    /// checked later, in `collapse`.
     fn plan(&self, e: EdgeId) -> Result<Plan, Blocked> {
         let target = self.target(e)?;
         self.check(e, &target)?;
-        Ok(Plan {
+        let plan = Plan {
+            point: match target.end {
+                Some(v) => self.mesh.position(v),
+                None => target.point / self.scale + self.center,
+            },
             errors: self.errors_after(e, &target)?,
             values: self.values_after(e, &target)?,
-            target,
-        })
+        };
+        let topology = self.mesh.check_collapse_to(e, plan.point);
+        topology.map_err(|_| Blocked::Topology).map(|()| plan)
     }
 
     fn collapse(&mut self, e: EdgeId, plan: Plan) -> Result<(), Blocked> {
         let [a, b] = self.mesh.edge_vertices(e);
-        let point = match plan.target.end {
-            Some(v) => self.mesh.position(v),
-            None => plan.target.point / self.scale + self.center,
-        };
         let mut around: Vec<FaceId> = Vec::new();
         if let Some(contacts) = &self.contacts {
-            if contacts.arise(&self.mesh, [a, b], point) {
+            if contacts.arise(&self.mesh, [a, b], plan.point) {
                 return Err(Blocked::Intersections);
             }
             around.extend([a, b].into_iter().flat_map(|v| self.mesh.vertex_faces(v)));
@@ -277,8 +289,7 @@ impl Collapser<'_> {
             let is_line = edges.iter().any(|e| self.lines[e.index()]);
             self.mesh.face(h).map(|_| (edges, is_line))
         });
-        let v = self.mesh.collapse_edge_to(e, point);
-        let v = v.map_err(|_| Blocked::Topology)?;
+        let v = self.mesh.collapse_checked_edge_to(e, plan.point);
         if let (Some(appearance), Some((around, merged))) = (&mut self.appearance, plan.values) {
             appearance.merge(&self.mesh, [a, b], v, &around, merged);
         }

@@ -1,6 +1,7 @@
 //! A queue of edges, ordered by the cost of their collapse, the lowest cost first.
 
 use mesh::{EdgeId, parallel};
+use rayon::prelude::*;
 
 /// An edge in the queue, with the pass in which its cost was computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,14 +10,17 @@ pub(super) struct Entry {
     pub(super) computed: u32,
 }
 
-/// The edges are sorted into levels: groups of edges with nearly equal cost. The edges of a level are visited in
-/// passes: an edge that is added to the level during a pass waits for the next pass.
+/// The edges are sorted into levels: groups of edges with nearly equal cost. A pass visits the edges of one level or of
+/// several successive levels. An edge that is added to one of these levels during the pass waits for the next pass.
 ///
 /// Levels are faster than a heap: on a mesh of 1,000,000 triangles, a version with a heap spent half of its
 /// time in the heap.
 pub(super) struct Queue {
     levels: Vec<Vec<Entry>>,
-    level: usize,
+    /// The first level of the current pass.
+    first: usize,
+    /// The last level of the current pass.
+    last: usize,
     pass: u32,
 }
 
@@ -32,7 +36,8 @@ impl Queue {
         let levels = vec![Vec::new(); usize::from(level_of(f64::INFINITY)) + 1];
         Self {
             levels,
-            level: 0,
+            first: 0,
+            last: 0,
             pass: 1,
         }
     }
@@ -42,20 +47,20 @@ impl Queue {
         self.pass
     }
 
-    /// Adds an edge whose cost belongs to the given level. If this level is before the current level, the edge goes to
-    /// the current level.
+    /// Adds an edge whose cost belongs to the given level. If this level is before the levels of the current pass, the
+    /// edge goes to the first level of the pass.
     pub(super) fn push(&mut self, entry: Entry, level: Level) {
-        self.levels[usize::from(level).max(self.level)].push(entry);
+        self.levels[usize::from(level).max(self.first)].push(entry);
     }
 
-    /// Adds an edge to the next pass of the current level.
+    /// Adds an edge to the next pass.
     pub(super) fn push_again(&mut self, entry: Entry) {
-        self.levels[self.level].push(entry);
+        self.levels[self.first].push(entry);
     }
 
-    /// Whether a level is after the current level.
+    /// Whether a level is after the levels of the current pass.
     pub(super) fn is_later(&self, level: Level) -> bool {
-        usize::from(level) > self.level
+        usize::from(level) > self.last
     }
 
     /// Gives new ids to all edges, and removes edges that no longer exist. `map` contains the new id of each edge.
@@ -69,18 +74,25 @@ impl Queue {
         });
     }
 
-    /// Begins the next pass, and replaces the contents of `edges` by the edges of this pass. Returns whether the pass
+    /// Begins the next pass, and replaces the contents of `edges` by the edges of this pass, in the order of their ids.
+    /// The pass visits the first level that has edges, and the `n_levels - 1` levels after it. Returns whether the pass
     /// has any edges.
-    pub(super) fn next_pass(&mut self, edges: &mut Vec<Entry>) -> bool {
+    pub(super) fn next_pass(&mut self, n_levels: usize, edges: &mut Vec<Entry>) -> bool {
         edges.clear();
         self.pass += 1;
-        while let Some(level) = self.levels.get_mut(self.level) {
+        while let Some(level) = self.levels.get_mut(self.first) {
             if !level.is_empty() {
                 std::mem::swap(level, edges);
+                self.last = (self.first + n_levels).min(self.levels.len()) - 1;
+                for level in &mut self.levels[self.first + 1..=self.last] {
+                    edges.append(level);
+                }
+                // Edges with near ids are often near in memory too, so visiting them in this order is faster.
+                edges.par_sort_by_key(|entry| entry.edge);
                 return true;
             }
             *level = Vec::new();
-            self.level += 1;
+            self.first += 1;
         }
         false
     }
@@ -112,7 +124,7 @@ mod tests {
             queue.push(entry(e), level_of(cost));
         }
         let (mut order, mut pass) = (Vec::new(), Vec::new());
-        while queue.next_pass(&mut pass) {
+        while queue.next_pass(1, &mut pass) {
             order.extend(pass.iter().map(|entry| entry.edge.index()));
         }
         assert_eq!(order, [2, 3, 6, 0, 4, 5, 1]);
@@ -125,13 +137,34 @@ mod tests {
         queue.push(a, level_of(1.0));
         queue.push(b, level_of(1.0));
         let mut edges = Vec::new();
-        assert!(queue.next_pass(&mut edges));
+        assert!(queue.next_pass(1, &mut edges));
         assert_eq!(edges, [a, b]);
         let pass = queue.pass();
         queue.push(a, level_of(0.0));
         queue.push_again(b);
-        assert!(queue.next_pass(&mut edges));
+        assert!(queue.next_pass(1, &mut edges));
         assert_eq!((&edges[..], queue.pass()), (&[a, b][..], pass + 1));
-        assert!(!queue.next_pass(&mut edges));
+        assert!(!queue.next_pass(1, &mut edges));
+    }
+
+    #[test]
+    fn a_pass_visits_several_levels() {
+        let mut queue = Queue::new();
+        let [a, b, c, d] = [0, 1, 2, 3].map(entry);
+        let level = level_of(1.0);
+        for (entry, level) in [(d, level), (b, level + 1), (a, level + 2), (c, level + 3)] {
+            queue.push(entry, level);
+        }
+        let mut edges = Vec::new();
+        assert!(queue.next_pass(3, &mut edges));
+        assert_eq!(edges, [a, b, d]);
+        assert!(!queue.is_later(level + 2) && queue.is_later(level + 3));
+        queue.push(a, level + 2);
+        queue.push_again(b);
+        assert!(queue.next_pass(1, &mut edges));
+        assert_eq!(edges, [b]);
+        assert!(queue.next_pass(9, &mut edges));
+        assert_eq!(edges, [a, c]);
+        assert!(!queue.next_pass(usize::MAX / 2, &mut edges));
     }
 }

@@ -14,18 +14,24 @@ use mesh::parallel;
 /// The number of positions in a chunk. Each chunk is processed by one task.
 const CHUNK: usize = 1 << 15;
 
+/// A position with coordinates of 32 or 64 bits.
+pub(crate) trait Position: Copy + Into<DVec3> + Send + Sync {}
+
+impl<P: Copy + Into<DVec3> + Send + Sync> Position for P {}
+
 /// Counts the vertices that a reader of the written file would merge with an earlier vertex. Use this function only for
 /// formats whose reader merges vertices with equal positions. Vertices without a face are not counted, because they are
 /// not written. Positions are compared after they are rounded to 32 bits.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
-    n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
+    n_merged_as(mesh, DVec3::as_vec3)
 }
 
 /// Like [`n_merged`], but the function `round` rounds the positions.
-pub(crate) fn n_merged_as(mesh: &Mesh, round: impl Fn(DVec3) -> DVec3 + Sync) -> usize {
+pub(crate) fn n_merged_as<P: Position>(mesh: &Mesh, round: impl Fn(DVec3) -> P + Sync) -> usize {
     let used = vertices_with_faces(mesh);
     let places = parallel::collect(used.len(), |i| round(mesh.position(VertexId::new(used[i]))));
-    used.len() - weld(places).0.len()
+    let first = first_equal(&places);
+    parallel::count(first.len(), |i| first[i] as usize != i)
 }
 
 /// Returns the vertices that belong to at least one face. Copies that a reader made by splitting vertices are left out.
@@ -37,15 +43,6 @@ fn vertices_with_faces(mesh: &Mesh) -> Vec<usize> {
     })
 }
 
-/// Returns the positions of `vertices`, rounded to 32 bits.
-fn rounded_places(mesh: &Mesh, vertices: &[usize]) -> Vec<DVec3> {
-    parallel::collect(vertices.len(), |i| {
-        mesh.position(VertexId::new(vertices[i]))
-            .as_vec3()
-            .as_dvec3()
-    })
-}
-
 /// Like [`n_merged`], but for formats whose reader also compares other values: it merges two vertices only if their
 /// positions are equal and `compare` returns `Equal`.
 pub(crate) fn n_merged_if_equal(
@@ -53,7 +50,8 @@ pub(crate) fn n_merged_if_equal(
     compare: impl Fn(usize, usize) -> Ordering + Sync,
 ) -> usize {
     let used = vertices_with_faces(mesh);
-    let (unique, vertex_of) = weld(rounded_places(mesh, &used));
+    let rounded = |i: usize| mesh.position(VertexId::new(used[i])).as_vec3();
+    let (unique, vertex_of) = weld(&parallel::collect(used.len(), rounded));
     if unique.len() == used.len() {
         return 0;
     }
@@ -63,10 +61,8 @@ pub(crate) fn n_merged_if_equal(
 
 /// Returns the distinct positions in order of first occurrence, and for each given position, its index in this list. 0
 /// and -0 are equal. There must be fewer than 2^32 - 1 positions.
-///
-/// If all positions are distinct, they are returned unchanged.
-pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
-    let mut vertex_of = first_equal(&positions);
+pub(crate) fn weld<P: Position>(positions: &[P]) -> (Vec<DVec3>, Vec<u32>) {
+    let mut vertex_of = first_equal(positions);
     let is_first = |i: usize, first: u32| i == first as usize;
     // For each chunk, the number of its positions that do not occur earlier in the whole list.
     let counts = parallel::consume(vertex_of.chunks(CHUNK), |chunk, firsts| {
@@ -75,7 +71,8 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     });
     let n_unique = counts.iter().sum();
     if n_unique == positions.len() {
-        return (positions, vertex_of);
+        let all = parallel::collect(n_unique, |i| positions[i].into());
+        return (all, vertex_of);
     }
     let mut unique = mesh::zeroed::<DVec3>(n_unique);
     let mut numbers = mesh::zeroed::<u32>(positions.len());
@@ -93,7 +90,7 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
             let mut k = 0;
             for (i, number) in (chunk * CHUNK..).zip(numbers) {
                 if is_first(i, vertex_of[i]) {
-                    unique[k] = positions[i];
+                    unique[k] = positions[i].into();
                     *number = index(before + k);
                     k += 1;
                 }
@@ -110,7 +107,7 @@ pub(crate) fn weld_equal(
     positions: &[DVec3],
     attributes: &mut Attributes,
 ) -> (Vec<DVec3>, Vec<u32>) {
-    let (welded, vertex_of) = weld(positions.to_vec());
+    let (welded, vertex_of) = weld(positions);
     if welded.len() == positions.len() {
         return (welded, vertex_of);
     }
@@ -198,10 +195,10 @@ mod tests {
     #[test]
     fn the_first_of_equal_positions_represents_them() {
         let (a, b) = (DVec3::new(0.0, 1.0, 2.0), DVec3::new(-0.0, 1.0, 2.0));
-        let (unique, vertex_of) = weld(vec![DVec3::ONE, b, a, DVec3::ONE, DVec3::ZERO]);
+        let (unique, vertex_of) = weld(&[DVec3::ONE, b, a, DVec3::ONE, DVec3::ZERO]);
         assert_eq!(vertex_of, [0, 1, 1, 0, 2]);
         assert!(unique[1].x.is_sign_negative() && unique.len() == 3);
-        assert_eq!(weld(Vec::new()), (Vec::new(), Vec::new()));
+        assert_eq!(weld::<DVec3>(&[]), (Vec::new(), Vec::new()));
     }
 
     #[test]
@@ -210,7 +207,7 @@ mod tests {
             let positions: Vec<_> = (0..n)
                 .map(|i| DVec3::new(f64::from(i % period), f64::from(i % period % 7), 0.5))
                 .collect();
-            assert!(weld(positions.clone()) == slow(&positions));
+            assert!(weld(&positions) == slow(&positions));
         }
     }
 
@@ -223,7 +220,7 @@ mod tests {
                 .iter()
                 .map(|p| DVec3::from_array(p.map(|x| f64::from(x) * 0.5)))
                 .collect();
-            prop_assert_eq!(weld(positions.clone()), slow(&positions));
+            prop_assert_eq!(weld(&positions), slow(&positions));
         }
     }
 }

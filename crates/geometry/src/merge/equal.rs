@@ -18,7 +18,8 @@ const MAX_BUCKETS: usize = 1 << 10;
 const AHEAD: usize = 16;
 
 /// Returns, for each position, the index of the first position that is equal to it. 0 and -0 are equal, and NaN is equal
-/// only to NaN with the same bits. There must be fewer than 2^32 - 1 positions.
+/// only to NaN with the same bits. There must be fewer than 2^32 - 1 positions. The coordinates can be 32-bit or 64-bit
+/// numbers.
 ///
 /// # Examples
 ///
@@ -27,7 +28,7 @@ const AHEAD: usize = 16;
 ///
 /// assert_eq!(geometry::first_equal(&[DVec3::X, DVec3::Y, DVec3::X]), [0, 1, 0]);
 /// ```
-pub fn first_equal(positions: &[DVec3]) -> Vec<u32> {
+pub fn first_equal<P: Copy + Into<DVec3> + Sync>(positions: &[P]) -> Vec<u32> {
     let buckets = (positions.len() / BUCKET + 1)
         .next_power_of_two()
         .min(MAX_BUCKETS);
@@ -37,7 +38,7 @@ pub fn first_equal(positions: &[DVec3]) -> Vec<u32> {
     let mut sorted = mesh::zeroed::<u64>(positions.len());
     let chunks = sorted.chunks_mut(CHUNK).zip(positions.chunks(CHUNK));
     let starts: Vec<Vec<usize>> = parallel::consume(chunks, |chunk, (sorted, positions)| {
-        let hashes: Vec<u64> = positions.iter().map(|&p| keys.hash(p)).collect();
+        let hashes: Vec<u64> = positions.iter().map(|&p| keys.hash(p.into())).collect();
         let bucket = |hash: u64| low(hash) as usize & (buckets - 1);
         let mut starts = vec![0; buckets + 1];
         for &hash in &hashes {
@@ -58,8 +59,8 @@ pub fn first_equal(positions: &[DVec3]) -> Vec<u32> {
     let first: Vec<AtomicU32> = mesh::zeroed(positions.len());
     parallel::map(buckets, |b| {
         let chunks = sorted.chunks(CHUNK).zip(&starts);
-        let entries = chunks.flat_map(|(chunk, starts)| &chunk[starts[b]..starts[b + 1]]);
-        let entries: Vec<u64> = entries.copied().collect();
+        let parts = chunks.map(|(chunk, starts)| &chunk[starts[b]..starts[b + 1]]);
+        let entries = parts.collect::<Vec<_>>().concat();
         let mut table = Table::new(entries.len());
         for (i, &entry) in entries.iter().enumerate() {
             if let Some(&later) = entries.get(i + AHEAD) {
@@ -94,7 +95,7 @@ impl Table {
 
     /// Returns the index of the first position that was added to the table and equals the position of `entry`. If there
     /// is none, adds `entry`.
-    fn first(&mut self, entry: u64, positions: &[DVec3]) -> u32 {
+    fn first<P: Copy + Into<DVec3>>(&mut self, entry: u64, positions: &[P]) -> u32 {
         let number = low(entry);
         let mut at = low(entry >> self.shift) as usize;
         loop {
@@ -105,7 +106,8 @@ impl Table {
             }
             let first = low(known);
             let same = (known ^ entry) & HIGH == 0
-                && bits(positions[first as usize]) == bits(positions[number as usize]);
+                && bits(positions[first as usize].into())
+                    == bits(positions[number as usize].into());
             if same {
                 return first;
             }
@@ -115,6 +117,7 @@ impl Table {
 }
 
 /// Adding 0 turns -0 into 0, so that both have the same bits.
+#[inline]
 fn bits(p: DVec3) -> [u64; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
@@ -129,6 +132,7 @@ impl Keys {
         Self([1, 2, 3].map(|i: u64| state.hash_one(i) | 1))
     }
 
+    #[inline]
     fn hash(&self, p: DVec3) -> u64 {
         let Self([a, b, c]) = self;
         let [x, y, z] = bits(p);
@@ -141,6 +145,7 @@ impl Keys {
 }
 
 /// Returns the index that a table entry stores.
+#[inline]
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the index is in the lower half"
@@ -149,6 +154,7 @@ fn low(entry: u64) -> u32 {
     entry as u32
 }
 
+#[inline]
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the index is in the lower half"

@@ -288,7 +288,7 @@ fn weld(
     let (positions, mut vertex_of) = if has_deformers {
         weld::weld_equal(&positions, attributes)
     } else {
-        weld::weld(positions)
+        weld::weld(&positions)
     };
     if unused > 0 {
         let places = std::mem::replace(&mut vertex_of, vec![0; n]);

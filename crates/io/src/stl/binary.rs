@@ -1,7 +1,7 @@
 //! Reads binary STL files, which consist of a header of 80 bytes, the number of triangles, and 50 bytes for each
 //! triangle.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use mesh::zeroed;
 
 use super::facets::{Facets, compare};
@@ -31,9 +31,9 @@ pub(super) fn length(bytes: &[u8]) -> Option<u64> {
 /// # Errors
 ///
 /// Returns an error for the first corner coordinate that is not finite.
-pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
+pub(super) fn read(facets: &[u8]) -> Result<Facets<Vec3>, Fault> {
     let n = facets.len() / FACET;
-    let mut corners = zeroed::<DVec3>(3 * n);
+    let mut corners = zeroed::<Vec3>(3 * n);
     let parts = corners
         .chunks_mut(3 * BLOCK)
         .zip(facets.chunks(BLOCK * FACET));
@@ -43,10 +43,10 @@ pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
         let mut finite = true;
         for (corners, facet) in corners.chunks_exact_mut(3).zip(facets.chunks_exact(FACET)) {
             let numbers: [f32; 12] = std::array::from_fn(|i| number(facet, i));
-            let [a, b, c] = std::array::from_fn(|i| vector(&numbers, 3 + 3 * i));
+            let [normal, a, b, c] = std::array::from_fn(|i| vector(&numbers, 3 * i));
             corners.copy_from_slice(&[a, b, c]);
             finite &= a.is_finite() & b.is_finite() & c.is_finite();
-            sides[compare(vector(&numbers, 0), [a, b, c]) as usize] += 1;
+            sides[compare(normal.into(), [a, b, c].map(DVec3::from)) as usize] += 1;
             colored += usize::from(facet[48..] != [0, 0]);
         }
         (sides, colored, finite)
@@ -80,7 +80,7 @@ pub(super) fn n_simple(facets: &[u8]) -> usize {
     parallel::count(n, |i| {
         let facet = &facets[FACET * i..FACET * (i + 1)];
         let numbers: [f32; 12] = std::array::from_fn(|i| number(facet, i));
-        let corners: [DVec3; 3] = std::array::from_fn(|i| vector(&numbers, 3 + 3 * i));
+        let corners: [Vec3; 3] = std::array::from_fn(|i| vector(&numbers, 3 + 3 * i));
         differ(&corners)
     })
 }
@@ -98,6 +98,6 @@ fn number(facet: &[u8], i: usize) -> f32 {
 }
 
 #[inline]
-fn vector(numbers: &[f32; 12], i: usize) -> DVec3 {
-    DVec3::from_array([0, 1, 2].map(|k| numbers[i + k].into()))
+fn vector(numbers: &[f32; 12], i: usize) -> Vec3 {
+    Vec3::from_array([0, 1, 2].map(|k| numbers[i + k]))
 }

@@ -4,11 +4,12 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-/// The facets of a file.
+/// The facets of a file. `P` is the type of a position: binary files have numbers of 32 bits, and text files can have
+/// numbers with more digits.
 #[derive(Debug, Default)]
-pub(super) struct Facets {
+pub(super) struct Facets<P> {
     /// Three corners for each facet.
-    pub(super) corners: Vec<DVec3>,
+    pub(super) corners: Vec<P>,
     /// The number of facets with each [`Side`] (how the normal in the file relates to the computed normal).
     pub(super) sides: [usize; 3],
     /// The number of facets whose attribute bytes are not 0.

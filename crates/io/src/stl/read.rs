@@ -13,7 +13,7 @@ use crate::note::Notes;
 use crate::peek::PeekMesh;
 use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::text::BYTE_ORDER_MARK;
-use crate::weld::weld;
+use crate::weld::{Position, weld};
 
 /// For binary files: the texts of the notes about content that is left out.
 const REST: &str = "bytes left out after the last facet";
@@ -25,19 +25,14 @@ const COLORED: &str = "facets with attribute bytes (possibly colors): these byte
 ///
 /// Returns an error for the first position that violates the format.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
-    let facets = match kind(bytes)? {
-        Kind::Text => text::read(bytes)?,
+    match kind(bytes)? {
+        Kind::Text => polygons(text::read(bytes)?, notes),
         Kind::Binary(end) => {
             let rest = bytes.len() - end;
             notes.left_out("extra-content", rest, None, REST);
-            binary::read(&bytes[binary::START..end])?
+            polygons(binary::read(&bytes[binary::START..end])?, notes)
         }
-    };
-    if facets.corners.len() >= u32::MAX as usize {
-        let message = format!("expected fewer than {} facets, found more", u32::MAX / 3);
-        return Err(Fault::byte(binary::HEADER, message));
     }
-    Ok(polygons(facets, notes))
 }
 
 enum Kind {
@@ -82,8 +77,12 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
     }
 }
 
-fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
+fn polygons<P: Position>(facets: Facets<P>, notes: &mut Notes) -> Result<Polygons, Fault> {
     let n_corners = facets.corners.len();
+    if n_corners >= u32::MAX as usize {
+        let message = format!("expected fewer than {} facets, found more", u32::MAX / 3);
+        return Err(Fault::byte(binary::HEADER, message));
+    }
     let [_, tilted, turned] = facets.sides;
     let what = "facet normals recomputed from the corners because they point away from the front of the facet";
     notes.changed("normals-turned", turned, None, what);
@@ -91,7 +90,8 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
         "facet normals recomputed from the corners because they are not perpendicular to the facet";
     notes.changed("normals-tilted", tilted, None, what);
     notes.left_out("facet-attributes", facets.colored, None, COLORED);
-    let (positions, corners) = weld(facets.corners);
+    let (positions, corners) = weld(&facets.corners);
+    drop(facets.corners);
     let n = positions.len();
     let what = format!("corners merged into {n} vertices with distinct positions");
     notes.changed("corners-merged", n_corners, None, what);
@@ -102,7 +102,7 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
         ..Polygons::default()
     };
     set_tags(&mut polygons, &facets.solids, notes);
-    polygons
+    Ok(polygons)
 }
 
 /// If there are several solids, adds a tag for each distinct name. The tag marks the faces of all solids with this

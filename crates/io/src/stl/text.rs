@@ -11,7 +11,7 @@ use crate::text::{Cursor, is_not_finite, name, number, quoted};
 /// # Errors
 ///
 /// Returns an error for the first word that violates the format.
-pub(super) fn read(bytes: &[u8]) -> Result<Facets, Fault> {
+pub(super) fn read(bytes: &[u8]) -> Result<Facets<DVec3>, Fault> {
     let mut found = Facets::default();
     let mut cursor = Cursor::new(bytes);
     expect(&mut cursor, b"solid")?;
@@ -31,7 +31,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Facets, Fault> {
 }
 
 /// Reads facets up to `endsolid`.
-fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), Fault> {
+fn solid(cursor: &mut Cursor, found: &mut Facets<DVec3>) -> Result<(), Fault> {
     loop {
         let (place, keyword) = cursor.next_word();
         if is(keyword, b"endsolid") {

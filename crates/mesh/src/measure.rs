@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::parallel;
-use crate::{Domain, EdgeId, Element, FaceId, HalfEdgeId, Mesh};
+use crate::{Domain, EdgeId, Element, FaceId, HalfEdgeId, Mesh, VertexId};
 
 /// Returns the angle between two directions, in radians from 0 to π; 0 if one of the vectors is zero.
 ///
@@ -152,9 +152,21 @@ impl Mesh {
 
     /// Returns the number of vertices without edges.
     pub fn n_isolated_vertices(&self) -> usize {
-        self.vertices()
-            .filter(|&v| self.vertex_half_edge(v).is_none())
-            .count()
+        parallel::count(self.positions.len(), |v| {
+            let v = VertexId::new(v);
+            self.has_vertex(v) && self.vertex_half_edge(v).is_none()
+        })
+    }
+
+    /// Returns the face with the lowest id that is not a triangle, or `None` if all faces are triangles.
+    pub fn first_non_triangle(&self) -> Option<FaceId> {
+        let is_other = |f| self.has_face(f) && !self.is_triangle(f);
+        let n = self.domain_len(Domain::Face);
+        // Usually, all faces are triangles. Then all threads share the work.
+        if parallel::all(n, |f| !is_other(FaceId::new(f))) {
+            return None;
+        }
+        (0..n).map(FaceId::new).find(|&f| is_other(f))
     }
 
     /// Whether the mesh has no boundary edges.
@@ -203,6 +215,18 @@ impl Mesh {
 mod tests {
     use super::*;
     use crate::{EdgeId, VertexId, shapes};
+
+    #[test]
+    fn the_first_face_that_is_not_a_triangle_is_found() {
+        let mut mesh = shapes::cylinder(5, true);
+        let polygons: Vec<FaceId> = mesh.faces().filter(|&f| !mesh.is_triangle(f)).collect();
+        assert_eq!(mesh.first_non_triangle(), Some(polygons[0]));
+        for f in polygons {
+            mesh.delete_face(f).unwrap();
+        }
+        assert_eq!(mesh.first_non_triangle(), None);
+        assert_eq!(shapes::icosahedron().first_non_triangle(), None);
+    }
 
     #[test]
     fn angle_defects_of_a_closed_mesh_sum_to_two_pi_times_the_euler_characteristic() {

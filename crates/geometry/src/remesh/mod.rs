@@ -255,7 +255,7 @@ pub fn remesh(
     progress: &dyn Progress,
 ) -> Result<Remeshed, RemeshError> {
     assert!(mesh.is_dense(), "the mesh must be dense");
-    if let Some(f) = mesh.faces().find(|&f| !mesh.is_triangle(f)) {
+    if let Some(f) = mesh.first_non_triangle() {
         return Err(RemeshError::NotTriangle(f));
     }
     let original = Original::new(mesh, options, progress)?;

@@ -174,8 +174,14 @@ pub fn simplify(
     progress: &dyn Progress,
 ) -> Result<Simplified, SimplifyError> {
     assert!(mesh.is_dense(), "the mesh must be dense");
-    if let Some(f) = mesh.faces().find(|&f| !mesh.is_triangle(f)) {
+    if let Some(f) = mesh.first_non_triangle() {
         return Err(SimplifyError::NotTriangle(f));
+    }
+    if mesh.n_faces() <= options.faces {
+        return Ok(Simplified {
+            mesh: mesh.clone(),
+            blocked: Vec::new(),
+        });
     }
     // The whole simplification runs in a thread of the thread pool, because such a thread can start a parallel loop
     // without waiting for another thread.

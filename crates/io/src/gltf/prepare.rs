@@ -64,7 +64,10 @@ impl<'a> PreparedObject<'a> {
             n_merged_if_equal(mesh, |a, b| deformation.compare(a, b))
         };
         losses.add(Domain::Vertex, "position", merged, reason);
-        let polygons = mesh.faces().filter(|&f| !mesh.is_triangle(f)).count();
+        let polygons = match mesh.first_non_triangle() {
+            None => 0,
+            Some(_) => mesh.faces().filter(|&f| !mesh.is_triangle(f)).count(),
+        };
         let reason = "only triangles are written to glTF, so polygons are triangulated";
         losses.add(Domain::Face, "polygon", polygons, reason);
         let is_empty = usize::from(mesh.n_faces() == 0);

@@ -73,7 +73,7 @@ impl<'s> Builder<'s, '_> {
     fn normals(&self, mesh: &'s Mesh) -> Channel<'s> {
         let is_flat = matches!(self.style.shading, Shading::Flat | Shading::Plain);
         if is_flat {
-            let is_triangles = mesh.faces().all(|f| mesh.is_triangle(f));
+            let is_triangles = mesh.first_non_triangle().is_none();
             if is_triangles {
                 return Channel::All([0.0; 3]);
             }

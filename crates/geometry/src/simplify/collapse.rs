@@ -35,15 +35,15 @@ const AHEAD: usize = 8;
 /// edges, waking a thread would take longer than visiting the edges.
 const PART: usize = 2048;
 
-/// A pass visits [`FAR_LEVELS`] levels of the queue while the mesh has more than `FAR` times the requested number of
-/// faces. Later collapses move the surface much farther than these early ones, so the exact order of the early collapses
-/// matters little. With an error limit, every pass visits one level: for the same limit, coarser levels leave up to a
-/// tenth more triangles.
+/// While the mesh has more than `FAR` times the requested number of faces, a pass visits [`FAR_LEVELS`] levels of the
+/// queue. The exact order of these early collapses matters little, because later collapses move the surface much
+/// farther. With an error limit, each pass visits one level. With four levels, up to a tenth more triangles would remain
+/// for the same limit.
 const FAR: usize = 2;
 
-/// See [`FAR`]. A torus of 1,000,000 triangles, reduced to a sixteenth, takes 0.8 of the time that passes over single
-/// levels take. In six models, reduced to a tenth and to a fiftieth of their triangles, the distance between the original
-/// and the result stays the same on average.
+/// See [`FAR`]. A torus of 1,000,000 triangles is reduced to a sixteenth in 0.8 of the time that passes over single
+/// levels take. Five models were reduced to between 40 % and 2 % of their triangles, with and without normals. On
+/// average, the RMS distance from the original grows by less than 1 %, and the largest distance by 2 %.
 const FAR_LEVELS: usize = 4;
 
 /// The data that is computed for an allowed collapse before the mesh changes.

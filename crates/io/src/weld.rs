@@ -60,7 +60,7 @@ pub(crate) fn n_merged_if_equal(
 }
 
 /// Returns the distinct positions in order of first occurrence, and for each given position, its index in this list. 0
-/// and -0 are equal. There must be fewer than 2^32 - 1 positions.
+/// and -0 are equal. There must be fewer than 2^32 - 1 positions. The returned positions have 64-bit numbers.
 pub(crate) fn weld<P: Position>(positions: &[P]) -> (Vec<DVec3>, Vec<u32>) {
     let mut vertex_of = first_equal(positions);
     let is_first = |i: usize, first: u32| i == first as usize;

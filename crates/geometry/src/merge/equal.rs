@@ -19,7 +19,7 @@ const AHEAD: usize = 16;
 
 /// Returns, for each position, the index of the first position that is equal to it. 0 and -0 are equal, and NaN is equal
 /// only to NaN with the same bits. There must be fewer than 2^32 - 1 positions. The coordinates can be 32-bit or 64-bit
-/// numbers.
+/// numbers; 32-bit numbers are compared after conversion to 64 bits.
 ///
 /// # Examples
 ///

@@ -5,7 +5,7 @@
 //! the batch. Therefore the result does not depend on the number of threads.
 //!
 //! 1. The cost of an edge is computed again if one of its ends has changed. An edge is a candidate under two conditions:
-//!    its cost is not above the cost level of the pass, and no edge near it was chosen in an earlier batch of this pass.
+//!    its cost is not above the cost levels of the pass, and no edge near it was chosen in an earlier batch of this pass.
 //! 2. A candidate is chosen if no edge near it was chosen before.
 //! 3. For each chosen edge, the new position and values are computed, and the collapse is checked.
 //! 4. The chosen edges are collapsed. The chosen edges are so far from each other that no collapse changes the results
@@ -43,7 +43,8 @@ const FAR: usize = 2;
 
 /// See [`FAR`]. A torus of 1,000,000 triangles is reduced to a sixteenth in 0.8 of the time that passes over single
 /// levels take. Five models were reduced to between 40 % and 2 % of their triangles, with and without normals. On
-/// average, the RMS distance from the original grows by less than 1 %, and the largest distance by 2 %.
+/// average, the RMS distance from the original grows by less than 1 %, and the largest distance by 2 %. Single results
+/// vary more: the RMS distance changes by factors from 0.9 to 1.2, and the largest distance by factors from 0.7 to 1.5.
 const FAR_LEVELS: usize = 4;
 
 /// The data that is computed for an allowed collapse before the mesh changes.
@@ -63,7 +64,7 @@ struct Part {
     candidates: Vec<Entry>,
     /// The edges near an edge that was chosen for a collapse earlier in this pass.
     waiting: Vec<Entry>,
-    /// The edges with a cost above the level of the pass, and the edges that cannot be collapsed. Each edge has the
+    /// The edges with a cost above the levels of the pass, and the edges that cannot be collapsed. Each edge has the
     /// level of its cost, or the reason why it cannot be collapsed.
     later: Vec<(EdgeId, Result<Level, Blocked>)>,
 }
@@ -84,10 +85,8 @@ impl Collapser<'_> {
                 self.compact();
             }
             let is_far = self.n_faces / FAR > self.options.faces && self.options.error.is_none();
-            if !self
-                .queue
-                .next_pass(if is_far { FAR_LEVELS } else { 1 }, &mut edges)
-            {
+            let n_levels = if is_far { FAR_LEVELS } else { 1 };
+            if !self.queue.next_pass(n_levels, &mut edges) {
                 break;
             }
             for batch in edges.chunks(BATCH) {

@@ -135,7 +135,8 @@ pub enum SimplifyError {
     Cancelled(#[from] Cancelled),
 }
 
-/// Simplifies a mesh of triangles by collapsing edges.
+/// Simplifies a mesh of triangles by collapsing edges. A mesh that has at most [`Options::faces`] faces is returned
+/// unchanged.
 ///
 /// The topology is preserved: the Euler characteristic, the boundary loops and the graph that the lines form do not
 /// change. No collapse turns a triangle by more than 78° on the surface, or turns a triangle over in the texture. The
@@ -155,7 +156,8 @@ pub enum SimplifyError {
 ///
 /// # Panics
 ///
-/// Panics if the mesh is not dense (see [`Mesh::is_dense`]), or a feature or a pinned vertex does not exist.
+/// Panics if the mesh is not dense (see [`Mesh::is_dense`]). Also panics if a feature or a pinned vertex does not exist,
+/// unless the mesh is returned unchanged.
 ///
 /// # Examples
 ///

@@ -53,7 +53,7 @@ impl Queue {
         self.levels[usize::from(level).max(self.first)].push(entry);
     }
 
-    /// Adds an edge to the next pass.
+    /// Adds an edge of the current pass to the next pass, whichever levels the next pass visits.
     pub(super) fn push_again(&mut self, entry: Entry) {
         self.levels[self.first].push(entry);
     }
@@ -75,15 +75,15 @@ impl Queue {
     }
 
     /// Begins the next pass, and replaces the contents of `edges` by the edges of this pass, in the order of their ids.
-    /// The pass visits the first level that has edges, and the `n_levels - 1` levels after it. Returns whether the pass
-    /// has any edges.
+    /// The pass visits `n_levels` levels, at least 1: the first level that has edges, and the levels after it. Returns
+    /// whether the pass has any edges.
     pub(super) fn next_pass(&mut self, n_levels: usize, edges: &mut Vec<Entry>) -> bool {
         edges.clear();
         self.pass += 1;
         while let Some(level) = self.levels.get_mut(self.first) {
             if !level.is_empty() {
                 std::mem::swap(level, edges);
-                self.last = (self.first + n_levels).min(self.levels.len()) - 1;
+                self.last = (self.first + n_levels - 1).min(self.levels.len() - 1);
                 for level in &mut self.levels[self.first + 1..=self.last] {
                     edges.append(level);
                 }
@@ -165,6 +165,9 @@ mod tests {
         assert_eq!(edges, [b]);
         assert!(queue.next_pass(9, &mut edges));
         assert_eq!(edges, [a, c]);
-        assert!(!queue.next_pass(usize::MAX / 2, &mut edges));
+        queue.push(d, level_of(f64::INFINITY));
+        assert!(queue.next_pass(9, &mut edges));
+        assert_eq!(edges, [d]);
+        assert!(!queue.next_pass(9, &mut edges));
     }
 }

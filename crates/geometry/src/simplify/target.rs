@@ -16,7 +16,7 @@ use super::quadric::Quadric;
 /// has the weight 1. If `ROUNDNESS` were 0, triangles would become thin where the surface is flat or curved in one
 /// direction only. As an example, a torus of 1,000,000 triangles was reduced to a tenth of its triangles. With the
 /// weight 1e-6, one percent of the triangles have an angle below 9°. With the weight 2e-5, one percent of the triangles
-/// have an angle below 15°. The distance between the original and the simplified surface is the same for both weights.
+/// have an angle below 14°. The distance between the original and the simplified surface is the same for both weights.
 const ROUNDNESS: f64 = 2e-5;
 
 /// The weight that is used instead of [`ROUNDNESS`] when the new position of a vertex is chosen. This weight is so

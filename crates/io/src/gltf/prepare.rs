@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use gltf_json::mesh::Semantic;
-use mesh::{Domain, Mesh};
+use mesh::{Domain, FaceId, Mesh, parallel};
 use scene::{Graph, Object};
 
 use super::faces::{Faces, faces_by_material};
@@ -64,10 +64,10 @@ impl<'a> PreparedObject<'a> {
             n_merged_if_equal(mesh, |a, b| deformation.compare(a, b))
         };
         losses.add(Domain::Vertex, "position", merged, reason);
-        let polygons = match mesh.first_non_triangle() {
-            None => 0,
-            Some(_) => mesh.faces().filter(|&f| !mesh.is_triangle(f)).count(),
-        };
+        let polygons = parallel::count(mesh.domain_len(Domain::Face), |f| {
+            let f = FaceId::new(f);
+            mesh.has_face(f) && !mesh.is_triangle(f)
+        });
         let reason = "only triangles are written to glTF, so polygons are triangulated";
         losses.add(Domain::Face, "polygon", polygons, reason);
         let is_empty = usize::from(mesh.n_faces() == 0);

@@ -116,14 +116,16 @@ impl Mesh {
     }
 
     /// Collapses an edge like [`collapse_edge_to`](Self::collapse_edge_to), but without any check. Call this function
-    /// only if [`check_collapse_to`](Self::check_collapse_to) succeeds. Several threads can check many edges, before
-    /// these edges are collapsed one after the other. In a mesh of triangles, a collapse does not change the result of
-    /// the check for another edge, provided that no end of the other edge is an end of the collapsed edge or a neighbor
-    /// of such an end.
+    /// only if [`check_collapse_to`](Self::check_collapse_to) succeeds.
+    ///
+    /// Several threads can check many edges, and then these edges can be collapsed one after the other without a second
+    /// check. The mesh must be a mesh of triangles, and the edges must be far from each other: no end of an edge may be
+    /// an end of another edge or a neighbor of such an end. Then no collapse changes the result of the check for another
+    /// edge.
     ///
     /// # Panics
     ///
-    /// Debug builds panic if the check does not succeed. In release builds, the mesh becomes invalid.
+    /// Debug builds panic if the check does not succeed. Release builds can then panic too, or leave the mesh invalid.
     pub fn collapse_checked_edge_to(&mut self, e: EdgeId, point: DVec3) -> VertexId {
         debug_assert_eq!(self.check_collapse_to(e, point), Ok(()));
         let [a, b] = self.edge_vertices(e).map(|v| self.position(v));

@@ -20,11 +20,11 @@ use crate::simplify::triangles_problem;
 ///
 /// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
 /// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length.
-/// Nearly all vertices of the result lie on the original surface. The only exceptions are new vertices that cannot move
-/// onto the surface without turning a triangle too far or moving the surface too far. The parameter `length` gives the
-/// same target length to all edges. With the parameter `curvature`, edges are short where the surface is curved, and
-/// long where it is flat (Dunyach and others, 2013). Exactly one of `length` and `curvature` must be given. All faces
-/// must be triangles.
+/// Almost all other edges are shorter. Nearly all vertices of the result lie on the original surface. The only
+/// exceptions are new vertices that cannot move onto the surface without turning a triangle too far or moving the
+/// surface too far. The parameter `length` gives the same target length to all edges. With the parameter `curvature`,
+/// edges are short where the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of
+/// `length` and `curvature` must be given. All faces must be triangles.
 ///
 /// The following properties are kept:
 ///
@@ -151,6 +151,7 @@ fn notes(counts: &Counts) -> Report {
 
 impl MeshOperation for Remesh {
     const NAME: &'static str = "Remesh";
+    const VERSION: u32 = 2;
     const SUMMARY: &'static str =
         "Replace all triangles with nearly equilateral triangles of a given size";
     const EXAMPLE: &'static str = "Remesh(length: 0.5)";

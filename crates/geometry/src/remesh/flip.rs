@@ -3,13 +3,15 @@
 use mesh::{EdgeId, HalfEdgeId, VertexId};
 use progress::{Cancelled, Progress};
 
+use super::size::LONG;
 use super::work::{Work, cross, is_bent, is_turned, quality};
 use super::{Refused, WHAT};
 
 impl Work<'_> {
     /// Flips edges to improve the valences: the numbers of edges at vertices. An edge is also flipped if the flip
     /// improves the shapes of the triangles and leaves the valences equally good. Flips that would make a thin
-    /// triangle, turn a triangle too far or move the surface too far are left out. Returns the number of flips.
+    /// triangle, turn a triangle too far or move the surface too far are left out. The last pass also leaves out flips
+    /// that would make an edge too long, because no later pass would split this edge. Returns the number of flips.
     pub(super) fn flip_all(&mut self, progress: &dyn Progress) -> Result<usize, Cancelled> {
         let mut valences: Vec<i32> = vec![0; self.places.len()];
         for h in self.mesh.half_edges() {
@@ -63,6 +65,11 @@ impl Work<'_> {
         let before = deviation(a, 0) + deviation(b, 0) + deviation(c, 0) + deviation(d, 0);
         let after = deviation(a, -1) + deviation(b, -1) + deviation(c, 1) + deviation(d, 1);
         if after > before {
+            return false;
+        }
+        let is_last_pass = self.counts.passes + 1 == self.counts.max_passes;
+        if is_last_pass && self.relative_distance(c, d) > LONG.max(self.relative_length(e)) {
+            self.counts.refuse(Refused::Long);
             return false;
         }
         let [p, q, r, s] = [a, b, c, d].map(|v| self.mesh.position(v));

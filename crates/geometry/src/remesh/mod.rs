@@ -49,7 +49,8 @@ const QUIET: f64 = 0.05;
 /// edges.
 const ATTEMPTS: u32 = 4;
 
-/// The target length of edges, in scene units. Most edges of the result are between 4/5 and 4/3 of this length.
+/// The target length of edges, in scene units. Most edges of the result are between 4/5 and 4/3 of this length. Almost
+/// all other edges are shorter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Length {
     /// The same length everywhere. This length must be positive.
@@ -135,7 +136,7 @@ impl Counts {
 pub enum Refused {
     /// The collapse would merge lines, move a vertex off its line, or move a corner of a line.
     Lines,
-    /// The collapse would make an edge that is longer than 4/3 of its target length.
+    /// The collapse, or a flip in the last pass, would make an edge that is longer than 4/3 of its target length.
     Long,
     /// A triangle would turn by more than 60° or become degenerate.
     Turned,

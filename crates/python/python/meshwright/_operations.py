@@ -2360,11 +2360,11 @@ class SceneOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. Nearly all vertices of the result lie on the original surface. The only exceptions are new vertices that
-        cannot move onto the surface without turning a triangle too far or moving the surface too far. The parameter
-        ``length`` gives the same target length to all edges. With the parameter ``curvature``, edges are short where
-        the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of ``length`` and
-        ``curvature`` must be given. All faces must be triangles.
+        length. Almost all other edges are shorter. Nearly all vertices of the result lie on the original surface. The
+        only exceptions are new vertices that cannot move onto the surface without turning a triangle too far or moving
+        the surface too far. The parameter ``length`` gives the same target length to all edges. With the parameter
+        ``curvature``, edges are short where the surface is curved, and long where it is flat (Dunyach and others,
+        2013). Exactly one of ``length`` and ``curvature`` must be given. All faces must be triangles.
 
         The following properties are kept:
 
@@ -4909,11 +4909,11 @@ class MeshOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. Nearly all vertices of the result lie on the original surface. The only exceptions are new vertices that
-        cannot move onto the surface without turning a triangle too far or moving the surface too far. The parameter
-        ``length`` gives the same target length to all edges. With the parameter ``curvature``, edges are short where
-        the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of ``length`` and
-        ``curvature`` must be given. All faces must be triangles.
+        length. Almost all other edges are shorter. Nearly all vertices of the result lie on the original surface. The
+        only exceptions are new vertices that cannot move onto the surface without turning a triangle too far or moving
+        the surface too far. The parameter ``length`` gives the same target length to all edges. With the parameter
+        ``curvature``, edges are short where the surface is curved, and long where it is flat (Dunyach and others,
+        2013). Exactly one of ``length`` and ``curvature`` must be given. All faces must be triangles.
 
         The following properties are kept:
 

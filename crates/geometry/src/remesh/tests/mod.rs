@@ -114,6 +114,18 @@ fn triangles_are_even_and_near_the_original() {
 }
 
 #[test]
+fn no_edge_of_the_result_is_much_too_long() {
+    for mesh in [ball(), torus(), waves(), fine_cube()] {
+        for length in [0.3, 0.2, 0.12, 0.1] {
+            let after = remeshed(&mesh, &to(length)).mesh;
+            let lengths = after.edges().map(|e| after.length(e.half_edges()[0]));
+            let longest = lengths.fold(0.0, f64::max) / length;
+            assert!(longest < 1.4, "{longest}");
+        }
+    }
+}
+
+#[test]
 fn a_cube_keeps_its_corners_its_edges_and_its_volume() {
     let cube = fine_cube();
     let features = sharp(&cube, 30.0);

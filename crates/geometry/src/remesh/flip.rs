@@ -67,11 +67,6 @@ impl Work<'_> {
         if after > before {
             return false;
         }
-        let is_last_pass = self.counts.passes + 1 == self.counts.max_passes;
-        if is_last_pass && self.relative_distance(c, d) > LONG.max(self.relative_length(e)) {
-            self.counts.refuse(Refused::Long);
-            return false;
-        }
         let [p, q, r, s] = [a, b, c, d].map(|v| self.mesh.position(v));
         let (old, new) = ([[p, q, r], [q, p, s]], [[r, s, q], [s, r, p]]);
         let worst = |t: [_; 2]| quality(t[0]).min(quality(t[1]));
@@ -85,6 +80,11 @@ impl Work<'_> {
         let (old, crosses) = (old.map(cross), new.map(cross));
         let turns = |&before: &_| crosses.iter().any(|&after| is_turned(before, after));
         if old.iter().any(turns) || crosses.contains(&mesh::DVec3::ZERO) {
+            return false;
+        }
+        let is_last_pass = self.counts.passes + 1 == self.counts.max_passes;
+        if is_last_pass && self.relative_distance(c, d) > LONG.max(self.relative_length(e)) {
+            self.counts.refuse(Refused::Long);
             return false;
         }
         if (self.limit.is_some() || is_bent(old[0], old[1]))

@@ -85,7 +85,8 @@ def measure(program, source, target, length):
     in_range = ((relative >= 0.8) & (relative <= 4 / 3)).mean()
     return (
         f"{len(triangles)} | {smallest.mean():.1f}° | {smallest.min():.1f}° | {(valences == 6).mean():.0%} | "
-        f"{in_range:.1%} | {distance['largest'] / diagonal:.1e} | {distance['mean'] / diagonal:.1e}"
+        f"{in_range:.1%} | {relative.max():.2f} | "
+        f"{distance['largest'] / diagonal:.1e} | {distance['mean'] / diagonal:.1e}"
     )
 
 
@@ -93,8 +94,10 @@ def main():
     root, program = Path(sys.argv[1]), Path(sys.argv[2]).resolve()
     models = [Path(model).resolve() for model in sys.argv[3:]] or [root / "scenes/assets/bunny.obj"]
     cgal = root / "target/peers/remesh_cgal"
-    print("| model | program | seconds | faces | mean angle | smallest | valence 6 | edges in range | largest distance | mean |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    columns = ["model", "program", "seconds", "faces", "mean angle", "smallest", "valence 6", "edges in range"]
+    columns += ["longest edge", "largest distance", "mean"]
+    print(f"| {' | '.join(columns)} |")
+    print("| --- " * len(columns) + "|")
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         for model in models:
